@@ -1,0 +1,115 @@
+//! The curves that a person draws: circles and polygons, before they become level sets.
+//!
+//! Coordinates are pixels, (0, 0) the centre of the top-left pixel.
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::grid::Grid;
+
+/// A closed curve as drawn.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub enum Shape {
+    /// A circle.
+    Circle {
+        /// Column of the centre.
+        x: f64,
+        /// Row of the centre.
+        y: f64,
+        /// Radius, above 0.
+        r: f64,
+    },
+    /// A polygon, closed from its last corner to its first; also a freehand line.
+    Polygon {
+        /// The corners, at least three.
+        points: Vec<[f64; 2]>,
+    },
+}
+
+impl Shape {
+    /// Signed distance in pixels from `(x, y)` to the curve: above 0 inside, below 0 outside.
+    pub fn signed_distance(&self, x: f64, y: f64) -> f64 {
+        match self {
+            Shape::Circle { x: cx, y: cy, r } => r - (x - cx).hypot(y - cy),
+            Shape::Polygon { points } => polygon_distance(points, x, y),
+        }
+    }
+
+    /// The level set of the curve over a `width × height` frame; `index` (from 0) only names it in errors.
+    ///
+    /// # Errors
+    /// [`Error::CurveNotFinite`], [`Error::CurveOutside`] when it meets no pixel of the frame,
+    /// [`Error::CurveEmpty`] when it encloses none.
+    pub fn level_set(&self, width: usize, height: usize, index: usize) -> Result<Grid<f32>, Error> {
+        let curve = index + 1;
+        let (min, max, finite) = self.bounds();
+        if !finite {
+            return Err(Error::CurveNotFinite { curve });
+        }
+        if min[0] > max[0] {
+            return Err(Error::CurveEmpty { curve });
+        }
+        let (w, h) = (width as f64, height as f64);
+        if max[0] < -0.5 || max[1] < -0.5 || min[0] > w - 0.5 || min[1] > h - 0.5 {
+            return Err(Error::CurveOutside {
+                curve,
+                width,
+                height,
+            });
+        }
+        let phi = Grid::from_fn(width, height, |x, y| {
+            self.signed_distance(x as f64, y as f64) as f32
+        });
+        if phi.data().iter().all(|&p| p <= 0.0) {
+            return Err(Error::CurveEmpty { curve });
+        }
+        Ok(phi)
+    }
+
+    /// Least and greatest corner, and whether every number is finite; least exceeds greatest when
+    /// there is nothing to bound.
+    fn bounds(&self) -> ([f64; 2], [f64; 2], bool) {
+        match self {
+            Shape::Circle { x, y, r } => (
+                [x - r, y - r],
+                [x + r, y + r],
+                x.is_finite() && y.is_finite() && r.is_finite(),
+            ),
+            Shape::Polygon { points } => {
+                let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+                let mut finite = true;
+                for p in points {
+                    for i in 0..2 {
+                        finite &= p[i].is_finite();
+                        min[i] = min[i].min(p[i]);
+                        max[i] = max[i].max(p[i]);
+                    }
+                }
+                (min, max, finite)
+            }
+        }
+    }
+}
+
+fn polygon_distance(points: &[[f64; 2]], x: f64, y: f64) -> f64 {
+    let mut nearest = f64::INFINITY;
+    let mut inside = false;
+    for (i, a) in points.iter().enumerate() {
+        let b = points[(i + 1) % points.len()];
+        let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
+        let (px, py) = (x - a[0], y - a[1]);
+        let length2 = ex * ex + ey * ey;
+        let t = if length2 > 0.0 {
+            ((px * ex + py * ey) / length2).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        nearest = nearest.min((px - t * ex).hypot(py - t * ey));
+        // Even–odd rule along the ray to the right.
+        if (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * ex {
+            inside = !inside;
+        }
+    }
+    if inside { nearest } else { -nearest }
+}

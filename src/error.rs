@@ -1,0 +1,145 @@
+//! Every way in which input can be wrong, as a sentence that says what, with sizes and limits, and
+//! what to do about it.
+
+use crate::frames::{MAX_SIDE, MIN_SIDE};
+use crate::options::MAX_CURVES;
+
+/// What can be wrong with what a user gave.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// The bytes are no image, or one that is cut short.
+    #[error(
+        "{name} cannot be read as an image ({reason}); PNG, JPEG, PNM, WebP, BMP and TIFF are understood"
+    )]
+    Decode {
+        /// The file, as the user knows it.
+        name: String,
+        /// What the decoder found.
+        reason: String,
+    },
+    /// A picture too small or too large to work on.
+    #[error(
+        "{name} is {width}×{height} pixels; both sides must lie between {MIN_SIDE} and {MAX_SIDE}: crop or resize it"
+    )]
+    Size {
+        /// The picture, as the user knows it.
+        name: String,
+        /// Its width.
+        width: usize,
+        /// Its height.
+        height: usize,
+    },
+    /// A flat array that does not fill the picture it is said to be.
+    #[error("{what} of {width}×{height} pixels needs {expected} values, but {found} were given")]
+    Length {
+        /// What the array is.
+        what: &'static str,
+        /// Stated width.
+        width: usize,
+        /// Stated height.
+        height: usize,
+        /// Values needed.
+        expected: usize,
+        /// Values given.
+        found: usize,
+    },
+    /// Two frames of different sizes.
+    #[error(
+        "the frames differ in size: the first is {}×{}, the second {}×{} pixels; give two frames of one film",
+        .first.0, .first.1, .second.0, .second.1
+    )]
+    FramesDiffer {
+        /// Width and height of the first frame.
+        first: (usize, usize),
+        /// Width and height of the second frame.
+        second: (usize, usize),
+    },
+    /// Twice the same frame.
+    #[error(
+        "the two frames are identical, so nothing moves; give two different moments of the film"
+    )]
+    FramesIdentical,
+    /// A frame without any contrast.
+    #[error(
+        "{which} frame has the same grey everywhere, so there is nothing to see move; give frames with texture"
+    )]
+    FrameConstant {
+        /// "the first" or "the second".
+        which: &'static str,
+    },
+    /// A focal length that no camera has.
+    #[error(
+        "the focal length is {0} pixels; it must be a finite number above 0, such as the frame's width"
+    )]
+    Focal(f64),
+    /// A principal point that is no point.
+    #[error("the principal point is ({0}, {1}); both coordinates must be finite numbers")]
+    Centre(f64, f64),
+    /// A number too many of curves.
+    #[error("{0} curves are drawn, at most {MAX_CURVES} are possible; delete some")]
+    TooManyCurves(usize),
+    /// A curve that lies wholly outside the frame.
+    #[error(
+        "curve {curve} lies outside the {width}×{height} frame; move it onto the object it should find"
+    )]
+    CurveOutside {
+        /// Which curve, from 1.
+        curve: usize,
+        /// Frame width.
+        width: usize,
+        /// Frame height.
+        height: usize,
+    },
+    /// A curve around no pixel.
+    #[error("curve {curve} encloses no pixel; draw it larger")]
+    CurveEmpty {
+        /// Which curve, from 1.
+        curve: usize,
+    },
+    /// A curve with a coordinate that is no number.
+    #[error("curve {curve} has a coordinate or radius that is not a finite number")]
+    CurveNotFinite {
+        /// Which curve, from 1.
+        curve: usize,
+    },
+    /// A setting outside its range.
+    #[error("{key} is {value}; it must be a number from {min} to {max}")]
+    Option {
+        /// The option's key.
+        key: String,
+        /// What was given.
+        value: String,
+        /// Least value allowed.
+        min: f64,
+        /// Largest value allowed.
+        max: f64,
+    },
+    /// A choice that is none of those offered.
+    #[error("{value:?} is no {what}; choose one of {choices}")]
+    Choice {
+        /// What is chosen.
+        what: String,
+        /// What was given.
+        value: String,
+        /// What could be.
+        choices: String,
+    },
+    /// A file of numbers (flow, depth, labels) that does not say what its format promises.
+    #[error("{name} is not a readable {format} file: {reason}")]
+    File {
+        /// The file, as the user knows it.
+        name: String,
+        /// "Middlebury .flo", "PFM", …
+        format: &'static str,
+        /// What is wrong in it.
+        reason: String,
+    },
+    /// Text that is not the JSON expected.
+    #[error("the {what} cannot be read: {reason}")]
+    Json {
+        /// What it should describe.
+        what: &'static str,
+        /// What the parser found.
+        reason: String,
+    },
+}

@@ -1,0 +1,56 @@
+//! What two frames are interpreted as: outlines, rigid motions, depth and the image motion they give.
+//!
+//! The solver produces one, a built-in sequence carries one as its truth, views and files are made
+//! from one, and scores compare two.
+
+use crate::camera::{Camera, RigidMotion};
+use crate::grid::Grid;
+
+/// Image motion in pixels per frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flow {
+    /// Rightwards. Not a number where unknown.
+    pub u: Grid<f32>,
+    /// Downwards. Not a number where unknown.
+    pub v: Grid<f32>,
+}
+
+/// Labels, depth, motion and flow of the first of two frames; all grids have the frame's size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interpretation {
+    /// The camera that it is meant for.
+    pub camera: Camera,
+    /// 0 where the background is seen, k inside the k-th curve.
+    pub labels: Grid<u8>,
+    /// Z > 0, in units of its own for each region: two frames do not tell the scale between them.
+    pub depth: Grid<f32>,
+    /// Where each pixel goes.
+    pub flow: Flow,
+    /// How far depth is observable at each pixel: 0 not at all, 1 fully.
+    pub confidence: Grid<f32>,
+    /// 1 where a pixel's point is hidden in the second frame, 0 elsewhere.
+    pub occluded: Grid<u8>,
+    /// The motion of each region; `motions[k]` belongs to label k.
+    pub motions: Vec<RigidMotion>,
+}
+
+impl Interpretation {
+    /// Number of regions, the background included.
+    pub fn regions(&self) -> usize {
+        self.motions.len()
+    }
+
+    /// The same with region k's depth multiplied by `factors[k]` (1 where `factors` is too short) and
+    /// its translation with it, which changes no image motion.
+    pub fn scaled(&self, factors: &[f64]) -> Self {
+        let factor = |k: usize| factors.get(k).copied().unwrap_or(1.0);
+        let mut scaled = self.clone();
+        for (z, &k) in scaled.depth.data_mut().iter_mut().zip(self.labels.data()) {
+            *z *= factor(usize::from(k)) as f32;
+        }
+        for (k, motion) in scaled.motions.iter_mut().enumerate() {
+            motion.translation *= factor(k);
+        }
+        scaled
+    }
+}
