@@ -5,6 +5,7 @@ pub mod curves;
 pub mod error;
 pub mod frames;
 pub mod grid;
+pub mod horn_schunck;
 pub mod interpretation;
 pub mod options;
 
