@@ -1,13 +1,18 @@
 //! Relievo.
 
 pub mod camera;
+pub mod constraint;
 pub mod curves;
+pub mod depth;
+pub mod energy;
 pub mod error;
 pub mod frames;
 pub mod grid;
 pub mod horn_schunck;
 pub mod interpretation;
+pub mod motion;
 pub mod options;
+pub mod solver;
 
 pub use camera::{Camera, RigidMotion};
 pub use curves::Shape;
@@ -15,3 +20,5 @@ pub use error::Error;
 pub use frames::{Frame, FramePair};
 pub use grid::Grid;
 pub use interpretation::{Flow, Interpretation};
+pub use options::Options;
+pub use solver::{Solver, Status};

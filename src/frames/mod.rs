@@ -1,5 +1,9 @@
 //! From bytes to what the solver reads: decoding, brightness, and its derivatives.
 
+mod derivatives;
 mod frame;
+mod gaussian;
 
+pub use derivatives::Derivatives;
 pub use frame::{Frame, FramePair, MAX_SIDE, MIN_SIDE};
+pub use gaussian::blur;

@@ -1,0 +1,27 @@
+//! The functional (7), term by term:
+//!
+//! ```text
+//! (7)  E = Σk ∫_Rk [ ψk² + μ g(‖∇Z‖) ] dx + λ Σ_{k≥1} ∮_γk ds
+//! ```
+//!
+//! in grey levels² (a pixel being the unit of area).
+
+use serde::Serialize;
+
+/// The three terms of (7).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Energy {
+    /// Σ ∫ ψ².
+    pub data: f64,
+    /// μ Σ ∫ g(‖∇Z‖).
+    pub smoothness: f64,
+    /// λ Σ ∮ ds.
+    pub length: f64,
+}
+
+impl Energy {
+    /// E.
+    pub fn total(&self) -> f64 {
+        self.data + self.smoothness + self.length
+    }
+}

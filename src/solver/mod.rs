@@ -1,0 +1,295 @@
+//! The three steps in turn: motion, depth, curves; and what a person may do meanwhile.
+//!
+//! Only this module knows the order of the steps; none of them calls another. A pass is
+//! motion → depth → curves. The solver stops as
+//! - *converged* when, for three passes running, at most `tolerance` of all pixels change region and
+//!   the energy changes by less than a thousandth,
+//! - *exhausted* (out of iterations) after `max_passes`,
+//! - *diverged* when the energy is no longer a finite number.
+
+mod report;
+mod state;
+mod weights;
+
+pub use report::{RegionReport, Report, Seconds};
+pub use weights::Weights;
+
+use serde::Serialize;
+use state::State;
+
+use crate::camera::Camera;
+use crate::curves::Shape;
+use crate::energy::Energy;
+use crate::error::Error;
+use crate::frames::{Derivatives, FramePair, blur};
+use crate::interpretation::Interpretation;
+use crate::options::{MAX_CURVES, Options};
+
+/// Where the solver stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// There is more to do.
+    Running,
+    /// Curves and energy stand still.
+    Converged,
+    /// All passes allowed are used up.
+    Exhausted,
+    /// The energy is not a finite number.
+    Diverged,
+}
+
+/// Passes for which all must stand still.
+const STILL_PASSES: usize = 3;
+/// Relative change of energy that counts as standing still.
+const STILL_ENERGY: f64 = 1e-3;
+
+/// Finds regions, motions and depth of a pair of frames.
+pub struct Solver {
+    pair: FramePair,
+    camera: Camera,
+    shapes: Vec<Shape>,
+    options: Options,
+    derivatives: Derivatives,
+    state: State,
+    weights: Weights,
+    status: Status,
+    history: Vec<f64>,
+    still: usize,
+    seconds: Seconds,
+    clock: fn() -> f64,
+}
+
+impl Solver {
+    /// A solver at its start: the curves as drawn, the same depth everywhere, nothing moving.
+    ///
+    /// # Errors
+    /// What [`Shape::level_set`] finds wrong with a curve, [`Error::TooManyCurves`], and what
+    /// [`Options::validate`] finds wrong with a setting.
+    pub fn new(
+        pair: FramePair,
+        camera: Camera,
+        shapes: &[Shape],
+        options: Options,
+    ) -> Result<Self, Error> {
+        options.validate()?;
+        let level_sets = level_sets(&pair, shapes)?;
+        let camera = Camera::new(camera.focal, camera.cx, camera.cy)?;
+        Ok(Self {
+            derivatives: differentiate(&pair, &options),
+            state: State::new(pair.width(), pair.height(), level_sets),
+            pair,
+            camera,
+            shapes: shapes.to_vec(),
+            options,
+            weights: Weights::default(),
+            status: Status::Running,
+            history: Vec::new(),
+            still: 0,
+            seconds: Seconds::default(),
+            clock: || 0.0,
+        })
+    }
+
+    /// Gives the solver a clock, in seconds; without one the times in its report stay 0. (The core has
+    /// none of its own: WebAssembly offers none.)
+    pub fn set_clock(&mut self, clock: fn() -> f64) {
+        self.clock = clock;
+    }
+
+    /// One pass: motion → depth → curves. Does nothing once the solver has stopped.
+    pub fn step(&mut self) -> Status {
+        if self.status != Status::Running {
+            return self.status;
+        }
+        let before = self.state.labels.clone();
+        self.step_motion();
+        self.step_depth();
+        self.step_curves();
+        let energy = self.energy().total();
+        let changed = before.data().iter().zip(self.state.labels.data());
+        let changed = changed.filter(|(a, b)| a != b).count() as f64 / before.len() as f64;
+        let settled = self
+            .history
+            .last()
+            .is_some_and(|e| (e - energy).abs() <= STILL_ENERGY * e.abs());
+        self.still = if settled && changed <= self.options.tolerance {
+            self.still + 1
+        } else {
+            0
+        };
+        self.history.push(energy);
+        self.status = if !energy.is_finite() {
+            Status::Diverged
+        } else if self.still >= STILL_PASSES {
+            Status::Converged
+        } else if self.history.len() >= self.options.max_passes {
+            Status::Exhausted
+        } else {
+            Status::Running
+        };
+        self.status
+    }
+
+    /// Step 1 alone: the motion of every region, for the present depth and curves.
+    pub fn step_motion(&mut self) {
+        let start = (self.clock)();
+        self.state
+            .find_motions(&self.camera, &self.derivatives, &self.options);
+        if !self.weights.chosen {
+            self.weights =
+                Weights::choose(&self.state, &self.camera, &self.derivatives, &self.options);
+        }
+        self.seconds.motion += (self.clock)() - start;
+    }
+
+    /// Step 2 alone: depth, for the present motions and curves.
+    pub fn step_depth(&mut self) {
+        let start = (self.clock)();
+        self.ensure_weights();
+        self.state.find_depth(
+            &self.camera,
+            &self.derivatives,
+            &self.options,
+            &self.weights,
+        );
+        self.seconds.depth += (self.clock)() - start;
+    }
+
+    /// Step 3 alone: the curves, for the present motions and depth.
+    pub fn step_curves(&mut self) {
+        let start = (self.clock)();
+        self.ensure_weights();
+        self.state.move_curves(
+            &self.camera,
+            &self.derivatives,
+            &self.options,
+            &self.weights,
+        );
+        self.seconds.curves += (self.clock)() - start;
+    }
+
+    /// The three terms of (7) as they stand.
+    pub fn energy(&self) -> Energy {
+        self.state.energy(
+            &self.camera,
+            &self.derivatives,
+            &self.options,
+            &self.weights,
+        )
+    }
+
+    /// Whether there is more to do.
+    pub fn status(&self) -> Status {
+        self.status
+    }
+
+    /// Passes made.
+    pub fn iterations(&self) -> usize {
+        self.history.len()
+    }
+
+    /// The total energy after each pass.
+    pub fn history(&self) -> &[f64] {
+        &self.history
+    }
+
+    /// The frames.
+    pub fn pair(&self) -> &FramePair {
+        &self.pair
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// The settings.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// Changes settings while the solver runs; curves, depth and motions stay. A solver that had
+    /// stopped goes on.
+    ///
+    /// # Errors
+    /// What [`Options::validate`] finds; then nothing is changed.
+    pub fn set_options(&mut self, options: Options) -> Result<(), Error> {
+        options.validate()?;
+        if options.smoothing != self.options.smoothing {
+            self.derivatives = differentiate(&self.pair, &options);
+        }
+        self.options = options;
+        // Weights chosen from the data stay as they are, so that energies remain comparable.
+        if self.weights.chosen {
+            self.weights = self.weights.with(&self.options);
+        }
+        self.resume();
+        Ok(())
+    }
+
+    /// Puts the curves elsewhere while the solver runs; depth stays, and motions are found anew in the
+    /// next pass. A solver that had stopped goes on.
+    ///
+    /// # Errors
+    /// What [`Solver::new`] would find wrong with the curves; then nothing is changed.
+    pub fn set_curves(&mut self, shapes: &[Shape]) -> Result<(), Error> {
+        let level_sets = level_sets(&self.pair, shapes)?;
+        self.shapes = shapes.to_vec();
+        self.state.replace_curves(level_sets);
+        self.resume();
+        Ok(())
+    }
+
+    /// Back to the start: the curves as drawn last, the same depth everywhere, nothing moving.
+    pub fn reset(&mut self) {
+        let level_sets = level_sets(&self.pair, &self.shapes).unwrap_or_default();
+        self.state = State::new(self.pair.width(), self.pair.height(), level_sets);
+        self.weights = Weights::default();
+        self.history.clear();
+        self.seconds = Seconds::default();
+        self.resume();
+    }
+
+    /// What the frames are taken for at present.
+    pub fn interpretation(&self) -> Interpretation {
+        self.state.interpretation(&self.camera, &self.derivatives)
+    }
+
+    /// Where the solver stands, in numbers.
+    pub fn report(&self) -> Report {
+        Report::of(self)
+    }
+
+    fn ensure_weights(&mut self) {
+        if !self.weights.chosen {
+            self.step_motion();
+        }
+    }
+
+    fn resume(&mut self) {
+        self.still = 0;
+        self.status = if self.history.len() >= self.options.max_passes {
+            Status::Exhausted
+        } else {
+            Status::Running
+        };
+    }
+}
+
+fn differentiate(pair: &FramePair, options: &Options) -> Derivatives {
+    Derivatives::between(
+        &blur(&pair.first().grey, options.smoothing),
+        &blur(&pair.second().grey, options.smoothing),
+    )
+}
+
+fn level_sets(pair: &FramePair, shapes: &[Shape]) -> Result<Vec<crate::Grid<f32>>, Error> {
+    if shapes.len() > MAX_CURVES {
+        return Err(Error::TooManyCurves(shapes.len()));
+    }
+    let numbered = shapes.iter().enumerate();
+    numbered
+        .map(|(i, shape)| shape.level_set(pair.width(), pair.height(), i))
+        .collect()
+}

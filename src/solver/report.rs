@@ -1,0 +1,143 @@
+//! Where the solver stands, in numbers: what the page shows beside the pictures and motion.json holds.
+
+use serde::Serialize;
+
+use super::weights::Weights;
+use super::{Solver, Status};
+use crate::energy::Energy;
+
+/// Seconds spent in each step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Seconds {
+    /// Step 1.
+    pub motion: f64,
+    /// Step 2.
+    pub depth: f64,
+    /// Step 3.
+    pub curves: f64,
+}
+
+/// One region.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RegionReport {
+    /// 0 for the background, k for the k-th curve.
+    pub label: usize,
+    /// Pixels that it owns.
+    pub pixels: usize,
+    /// Their share of the frame, 0–1.
+    pub share: f64,
+    /// T, in units in which the region's mean 1/Z is 1.
+    pub translation: [f64; 3],
+    /// ω, in radians per frame.
+    pub rotation: [f64; 3],
+    /// still, rotation, translation or full.
+    pub kind: &'static str,
+}
+
+/// The state of a solver.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// Passes made.
+    pub iterations: usize,
+    /// Whether there is more to do.
+    pub status: Status,
+    /// Scale at work, 0 the finest.
+    pub level: usize,
+    /// Number of scales.
+    pub levels: usize,
+    /// The terms of (7).
+    pub energy: Terms,
+    /// Total energy after each pass.
+    pub history: Vec<f64>,
+    /// Every region, the background first.
+    pub regions: Vec<RegionReport>,
+    /// The weights in force.
+    pub weights: Weights,
+    /// What a user should know, in sentences.
+    pub warnings: Vec<String>,
+    /// Time spent.
+    pub seconds: Times,
+}
+
+/// The terms of (7) and their sum.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Terms {
+    /// The terms.
+    #[serde(flatten)]
+    pub terms: Energy,
+    /// Their sum.
+    pub total: f64,
+}
+
+/// Seconds in each step, and altogether.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Times {
+    /// Altogether.
+    pub total: f64,
+    /// By step.
+    #[serde(flatten)]
+    pub steps: Seconds,
+}
+
+impl Report {
+    pub(super) fn of(solver: &Solver) -> Self {
+        let pixels = solver.state.pixels();
+        let all = solver.state.labels.len() as f64;
+        let regions: Vec<RegionReport> = solver
+            .state
+            .motions
+            .iter()
+            .zip(&pixels)
+            .enumerate()
+            .map(|(label, (motion, &pixels))| RegionReport {
+                label,
+                pixels,
+                share: pixels as f64 / all,
+                translation: motion.translation.to_array(),
+                rotation: motion.rotation.to_array(),
+                kind: kind(motion),
+            })
+            .collect();
+        let energy = solver.energy();
+        let steps = solver.seconds;
+        Self {
+            iterations: solver.iterations(),
+            status: solver.status,
+            level: 0,
+            levels: 1,
+            energy: Terms {
+                terms: energy,
+                total: energy.total(),
+            },
+            history: solver.history.clone(),
+            warnings: warnings(&regions),
+            regions,
+            weights: solver.weights,
+            seconds: Times {
+                total: steps.motion + steps.depth + steps.curves,
+                steps,
+            },
+        }
+    }
+}
+
+fn kind(motion: &crate::camera::RigidMotion) -> &'static str {
+    let moves = motion.translation.length_squared() > 0.0;
+    let turns = motion.rotation.length_squared() > 0.0;
+    match (moves, turns) {
+        (false, false) => "still",
+        (false, true) => "rotation",
+        (true, false) => "translation",
+        (true, true) => "full",
+    }
+}
+
+fn warnings(regions: &[RegionReport]) -> Vec<String> {
+    let vanished = regions.iter().filter(|r| r.pixels == 0);
+    vanished
+        .map(|r| match r.label {
+            0 => "the curves have taken the whole frame: no background is left".to_owned(),
+            k => format!("curve {k} has vanished: nothing moves differently where it was drawn"),
+        })
+        .collect()
+}
