@@ -1,0 +1,43 @@
+// npm start: set up, build, serve, and say where. With --dev the page reloads as its files change.
+
+import { parseArgs } from "node:util";
+
+import { ifMain, root, Trouble } from "./shell.js";
+import { setup } from "./setup.js";
+import { build } from "./build.js";
+import { wasm } from "./wasm.js";
+
+const USAGE = "npm start [-- [--port PORT] [--host HOST]]";
+
+function options() {
+  try {
+    const { values } = parseArgs({
+      options: {
+        dev: { type: "boolean", default: false },
+        host: { type: "string", default: "127.0.0.1" },
+        port: { type: "string", default: "5173" },
+      },
+    });
+    const port = Number(values.port);
+    if (!(Number.isInteger(port) && port > 0 && port < 65536)) throw new Error();
+    return { dev: values.dev, host: values.host, port };
+  } catch {
+    throw new Trouble(`Usage: ${USAGE}`);
+  }
+}
+
+await ifMain(import.meta.url, async () => {
+  const { dev, host, port } = options();
+  await setup();
+  if (dev) await wasm();
+  else await build();
+
+  // Only now is Vite sure to be installed.
+  const vite = await import("vite");
+  const common = { configFile: `${root}/vite.config.ts`, root: `${root}/www` };
+  const server = dev
+    ? await (await vite.createServer({ ...common, server: { host, port } })).listen()
+    : await vite.preview({ ...common, preview: { host, port } });
+  const address = server.resolvedUrls?.local[0] ?? `http://${host}:${port}/`;
+  console.log(`\nRelievo is at ${address}\nPress Ctrl-C to stop.`);
+});

@@ -1,0 +1,131 @@
+// npm test: every check there is, each timed, and a summary. `npm test -- page cli` runs only the
+// stages whose names contain one of those words.
+
+import { existsSync, readdirSync } from "node:fs";
+import { createServer } from "node:net";
+import { join } from "node:path";
+
+import { build } from "./build.js";
+import { ensureChromium } from "./chromium.js";
+import { setup } from "./setup.js";
+import { duration, ifMain, root, run, stage, Trouble } from "./shell.js";
+import { wasm } from "./wasm.js";
+
+const WASM = ["--target", "wasm32-unknown-unknown"];
+const DENY = ["--", "-D", "warnings"];
+
+/** @type {[string, () => Promise<unknown>][]} */
+const STAGES = [
+  ["rust format", () => run("cargo", ["fmt", "--check"])],
+  ["rust lint", () => run("cargo", ["clippy", "--locked", "--all-targets", ...DENY])],
+  ["rust lint for wasm", () => run("cargo", ["clippy", "--locked", "--lib", ...WASM, ...DENY])],
+  [
+    "rust docs",
+    () => run("cargo", ["doc", "--locked", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" }),
+  ],
+  ["rust tests", () => run("cargo", ["test", "--locked"])],
+  ["rust tests in Node", rustInNode],
+  ["build", build],
+  ["page format", () => run("prettier", ["--check", "."])],
+  ["page types", types],
+  ["command line tests", commandLine],
+  ["page tests", page],
+];
+
+async function rustInNode() {
+  return run("wasm-pack", ["test", "--node", "--mode", "no-install", "--", "--locked", "--tests"]);
+}
+
+async function types() {
+  await wasm();
+  await run("tsc", ["-p", "tsconfig.json"]);
+  await run("tsc", ["-p", "tsconfig.node.json"]);
+}
+
+async function commandLine() {
+  await wasm();
+  return run("node", ["--test", "--test-reporter=spec", ...filesIn("tests/cli", ".test.js")]);
+}
+
+async function page() {
+  await build();
+  const chromium = await ensureChromium();
+  return run("playwright", ["test"], {
+    RELIEVO_PORT: String(await freePort()),
+    ...(chromium ? { RELIEVO_CHROMIUM: chromium } : {}),
+  });
+}
+
+/**
+ * @param {string} folder
+ * @param {string} ending
+ */
+function filesIn(folder, ending) {
+  const full = join(root, folder);
+  const names = existsSync(full) ? readdirSync(full) : [];
+  return names.filter((name) => name.endsWith(ending)).map((name) => join(full, name));
+}
+
+/** @returns {Promise<number>} */
+function freePort() {
+  return new Promise((resolve) => {
+    const server = createServer().listen(0, "127.0.0.1", () => {
+      const address = server.address();
+      server.close(() => resolve(typeof address === "object" && address ? address.port : 0));
+    });
+  });
+}
+
+/**
+ * How many tests a stage's output speaks of; none for a stage that is one check.
+ * @param {unknown} output
+ */
+function count(output) {
+  const text = String(output ?? "").replaceAll(/\x1b\[[0-9;]*m/g, "");
+  const patterns = [
+    /test result: \w+\. (\d+) passed; (\d+) failed/g,
+    /^ℹ pass (\d+)\s+ℹ fail (\d+)/gm,
+    /^\s+(\d+) passed/gm,
+    /^\s+()(\d+) failed/gm,
+  ];
+  let [passed, failed] = [0, 0];
+  for (const match of patterns.flatMap((pattern) => [...text.matchAll(pattern)])) {
+    passed += Number(match[1] ?? 0);
+    failed += Number(match[2] ?? 0);
+  }
+  return { passed, failed };
+}
+
+await ifMain(import.meta.url, async () => {
+  const begin = performance.now();
+  const words = process.argv.slice(2);
+  const chosen = STAGES.filter(([name]) => !words.length || words.some((w) => name.includes(w)));
+  if (!chosen.length) {
+    throw new Trouble(`No stage is called that: ${STAGES.map(([name]) => name).join(", ")}.`);
+  }
+  await setup();
+
+  const lines = [];
+  let failures = 0;
+  for (const [name, work] of chosen) {
+    const from = performance.now();
+    let [word, output, reason] = ["ok", /** @type {unknown} */ (""), ""];
+    try {
+      output = await stage(name, work);
+    } catch (error) {
+      failures += 1;
+      word = "FAILED";
+      output = Object(error).output;
+      reason = error instanceof Error ? error.message : String(error);
+      console.error(reason);
+    }
+    const { passed, failed } = count(output);
+    const tests = passed + failed ? `${passed} passed${failed ? `, ${failed} failed` : ""}` : "";
+    const time = duration(performance.now() - from);
+    lines.push(`${word.padEnd(7)} ${name.padEnd(22)} ${time.padStart(11)}  ${tests || reason}`);
+  }
+  console.log(`\n== Summary, ${duration(performance.now() - begin)}`);
+  console.log(lines.join("\n"));
+  if (failures) throw new Trouble(`${failures} of ${chosen.length} stages failed.`);
+  console.log("\nAll is well.");
+});

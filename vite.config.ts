@@ -1,0 +1,15 @@
+import { fileURLToPath } from "node:url";
+
+import { defineConfig } from "vite";
+
+const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+
+export default defineConfig({
+  root: here("www"),
+  // Relative addresses, so that the built page can be put into any folder of any server.
+  base: "./",
+  build: { outDir: here("dist"), emptyOutDir: true, target: "es2022" },
+  worker: { format: "es" },
+  // The WebAssembly lies beside www/, not in it.
+  server: { fs: { allow: [here(".")] } },
+});
