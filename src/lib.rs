@@ -12,6 +12,7 @@ pub mod horn_schunck;
 pub mod interpretation;
 pub mod motion;
 pub mod options;
+pub mod scene;
 pub mod solver;
 
 pub use camera::{Camera, RigidMotion};

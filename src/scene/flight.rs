@@ -1,0 +1,52 @@
+//! `flight`: a camera flying low over hills; the whole frame is one region.
+
+use glam::DVec3;
+
+use super::Entry;
+use super::solid::{Solid, Terrain};
+use super::stage::{Light, Material, Part, Pose, Shadows, Stage, turn};
+use super::texture::{Pattern, Texture, palette, srgb};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "flight",
+    title: "Flight over hills",
+    lesson: "No curve at all: the camera alone moves, and one rigid motion explains every pixel. \
+             Depth runs from the slope below to the far ridge.",
+};
+
+pub(super) fn stage() -> Stage {
+    let land = Texture {
+        pattern: Pattern::Strata,
+        colours: palette(0x3f5a2c, 0x8a8a52, 0xcdb98c),
+        scale: 0.6,
+        grain: 0.7,
+        seed: 41,
+    };
+    let ground = Pose::ground(0.5, 4.6);
+    let sky = srgb(0xc4d6e6);
+    // The land moves past the camera: the opposite of the camera's own motion.
+    Stage {
+        parts: vec![Part {
+            solid: Solid::Terrain(Terrain {
+                amplitude: 0.9,
+                spacing: 1.8,
+                seed: 42,
+            }),
+            pose: ground,
+            material: Material::matt(land),
+            body: 0,
+        }],
+        motions: vec![turn(
+            DVec3::ZERO,
+            DVec3::new(0.0004, -0.0006, 0.0003),
+            ground.direction(DVec3::new(0.003, 0.0, -0.012)),
+        )],
+        light: Light::daylight(
+            ground.direction(DVec3::new(-1.0, -0.75, 0.25)),
+            ground.direction(DVec3::NEG_Y),
+            0.05,
+        ),
+        shadows: Shadows::Painted,
+        haze: (0.035, sky),
+    }
+}

@@ -1,0 +1,144 @@
+//! Sequences made by the project itself, with everything about them known.
+//!
+//! Each is a [`stage::Stage`] — solids, solid textures, lamps and rigid motions as data — seen by one
+//! ray caster, at any size. Textures have detail at every scale the picture can show.
+
+mod blocks;
+mod carousel;
+mod cast;
+mod figure;
+mod flight;
+mod head;
+mod noise;
+mod solid;
+mod squares;
+mod stage;
+mod texture;
+mod truth;
+
+use serde::Serialize;
+
+use crate::camera::Camera;
+use crate::curves::Shape;
+use crate::error::Error;
+use crate::frames::{Frame, MAX_SIDE, MIN_SIDE};
+use crate::interpretation::Interpretation;
+use cast::{Caster, Moment};
+use stage::Stage;
+
+/// Two frames, the curves to start from, and the truth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sequence {
+    /// Its name, as [`names`] lists it.
+    pub name: String,
+    /// Its name for people.
+    pub title: String,
+    /// What it teaches, in a sentence or two.
+    pub lesson: String,
+    /// The two frames, 8 bits per channel.
+    pub frames: [Frame; 2],
+    /// One circle per moving object, covering about a third of it; none where there is one region.
+    pub curves: Vec<Shape>,
+    /// Labels, depth, motions, flow, occlusion and camera of the first frame.
+    pub truth: Interpretation,
+}
+
+/// A sequence that can be rendered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Entry {
+    /// What [`render`] calls it.
+    pub name: &'static str,
+    /// What people call it.
+    pub title: &'static str,
+    /// What it teaches.
+    pub lesson: &'static str,
+}
+
+const CATALOGUE: [Entry; 6] = [
+    squares::ENTRY,
+    blocks::ENTRY,
+    figure::ENTRY,
+    head::ENTRY,
+    flight::ENTRY,
+    carousel::ENTRY,
+];
+
+const NAMES: [&str; 6] = [
+    squares::ENTRY.name,
+    blocks::ENTRY.name,
+    figure::ENTRY.name,
+    head::ENTRY.name,
+    flight::ENTRY.name,
+    carousel::ENTRY.name,
+];
+
+/// The names of all built-in sequences.
+pub fn names() -> &'static [&'static str] {
+    &NAMES
+}
+
+/// All built-in sequences with their titles and lessons.
+pub fn catalogue() -> &'static [Entry] {
+    &CATALOGUE
+}
+
+/// Renders the sequence `name` at `width × height` pixels. The field of view stays, so image motion
+/// in pixels grows with the size; at 320×240 it is a pixel or so.
+///
+/// # Errors
+/// [`Error::Choice`] for an unknown name, [`Error::Size`] outside the limits of a frame.
+pub fn render(name: &str, width: usize, height: usize) -> Result<Sequence, Error> {
+    let entry = CATALOGUE
+        .iter()
+        .find(|e| e.name == name)
+        .ok_or_else(|| Error::Choice {
+            what: "built-in sequence".to_owned(),
+            value: name.to_owned(),
+            choices: NAMES.join(", "),
+        })?;
+    let camera = camera(name, width, height)?;
+    let stage = match name {
+        "squares" => squares::stage(),
+        "blocks" => blocks::stage(),
+        "figure" => figure::stage(),
+        "head" => head::stage(),
+        "flight" => flight::stage(),
+        _ => carousel::stage(),
+    };
+    let pictures = [Moment::First, Moment::Second]
+        .map(|moment| Caster::new(&stage, camera, moment).picture(width, height));
+    Ok(sequence(entry, &stage, camera, width, height, &pictures))
+}
+
+/// A camera whose horizontal field of view is 53° in a 4:3 frame; in a flatter or taller frame the
+/// largest 4:3 part of it has that field of view.
+fn camera(name: &str, width: usize, height: usize) -> Result<Camera, Error> {
+    let sides = MIN_SIDE..=MAX_SIDE;
+    if !sides.contains(&width) || !sides.contains(&height) {
+        return Err(Error::Size {
+            name: format!("the sequence {name}"),
+            width,
+            height,
+        });
+    }
+    Camera::centred((width as f64).min(height as f64 * 4.0 / 3.0), width, height)
+}
+
+fn sequence(
+    entry: &Entry,
+    stage: &Stage,
+    camera: Camera,
+    width: usize,
+    height: usize,
+    pictures: &[Vec<[f32; 3]>; 2],
+) -> Sequence {
+    let truth = truth::truth(stage, camera, width, height);
+    Sequence {
+        name: entry.name.to_owned(),
+        title: entry.title.to_owned(),
+        lesson: entry.lesson.to_owned(),
+        frames: [0, 1].map(|i| Frame::from_colours(width, height, &pictures[i])),
+        curves: truth::curves(&truth.labels, stage.motions.len()),
+        truth,
+    }
+}

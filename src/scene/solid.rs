@@ -1,0 +1,209 @@
+//! Solids, and where a ray meets them.
+//!
+//! A solid lives in a frame of its own: x right, y down, z away, centred on the origin unless said
+//! otherwise. A ray is o + t d with t > 0; d need not be of unit length, and t counts in lengths of d,
+//! so that it survives a rigid change of frame and, for camera rays with d.z = 1, is the depth Z.
+
+use glam::DVec3;
+
+use super::noise::plane_noise;
+
+/// A shape without place or colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Solid {
+    /// The box |x| ≤ h.x, |y| ≤ h.y, |z| ≤ h.z.
+    Cuboid(DVec3),
+    /// The ellipsoid with these half axes.
+    Ellipsoid(DVec3),
+    /// The plane y = 0, seen from above (y < 0).
+    Floor,
+    /// A cylinder round the y axis, with flat ends.
+    Cylinder {
+        /// Its radius.
+        radius: f64,
+        /// Half its height.
+        half: f64,
+    },
+    /// A land of hills y = −height(x, z).
+    Terrain(Terrain),
+}
+
+/// Hills: three octaves of gradient noise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Terrain {
+    /// Greatest height above and below y = 0.
+    pub amplitude: f64,
+    /// Distance between neighbouring hills.
+    pub spacing: f64,
+    /// Which land.
+    pub seed: u32,
+}
+
+/// Where a ray first meets a solid.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit {
+    /// How far along the ray.
+    pub t: f64,
+    /// The outward normal, of unit length.
+    pub normal: DVec3,
+}
+
+impl Solid {
+    /// The first meeting of the ray o + t d with t > 0, o outside the solid.
+    pub fn hit(&self, o: DVec3, d: DVec3) -> Option<Hit> {
+        match *self {
+            Solid::Cuboid(half) => hit_cuboid(half, o, d),
+            Solid::Ellipsoid(radii) => hit_ellipsoid(radii, o, d),
+            Solid::Floor => {
+                let t = -o.y / d.y;
+                (d.y > 0.0 && t > 0.0).then_some(Hit {
+                    t,
+                    normal: DVec3::NEG_Y,
+                })
+            }
+            Solid::Cylinder { radius, half } => hit_cylinder(radius, half, o, d),
+            Solid::Terrain(terrain) => terrain.hit(o, d),
+        }
+    }
+
+    /// Radius of a sphere round the origin that holds the solid; infinite for floors and terrain.
+    pub fn bound(&self) -> f64 {
+        match *self {
+            Solid::Cuboid(half) => half.length(),
+            Solid::Ellipsoid(radii) => radii.max_element(),
+            Solid::Cylinder { radius, half } => radius.hypot(half),
+            Solid::Floor | Solid::Terrain(_) => f64::INFINITY,
+        }
+    }
+}
+
+fn hit_cuboid(half: DVec3, o: DVec3, d: DVec3) -> Option<Hit> {
+    let inverse = d.recip();
+    let centre = -o * inverse;
+    let reach = half * inverse.abs();
+    let (enter, leave) = (centre - reach, centre + reach);
+    let t = enter.max_element();
+    if t <= 0.0 || t > leave.min_element() {
+        return None;
+    }
+    let normal = if enter.x == t {
+        DVec3::X
+    } else if enter.y == t {
+        DVec3::Y
+    } else {
+        DVec3::Z
+    };
+    let normal = if normal.dot(d) > 0.0 { -normal } else { normal };
+    Some(Hit { t, normal })
+}
+
+fn hit_ellipsoid(radii: DVec3, o: DVec3, d: DVec3) -> Option<Hit> {
+    // A unit sphere once space is squeezed.
+    let (so, sd) = (o / radii, d / radii);
+    let a = sd.length_squared();
+    let b = so.dot(sd);
+    let inside = b * b - a * (so.length_squared() - 1.0);
+    if inside < 0.0 {
+        return None;
+    }
+    let t = (-b - inside.sqrt()) / a;
+    (t > 0.0).then(|| Hit {
+        t,
+        normal: ((so + sd * t) / radii).normalize(),
+    })
+}
+
+fn hit_cylinder(radius: f64, half: f64, o: DVec3, d: DVec3) -> Option<Hit> {
+    let a = d.x * d.x + d.z * d.z;
+    let b = o.x * d.x + o.z * d.z;
+    let inside = b * b - a * (o.x * o.x + o.z * o.z - radius * radius);
+    if inside > 0.0 {
+        let t = (-b - inside.sqrt()) / a;
+        if t > 0.0 && (o.y + t * d.y).abs() <= half {
+            let p = o + d * t;
+            return Some(Hit {
+                t,
+                normal: DVec3::new(p.x, 0.0, p.z) / radius,
+            });
+        }
+    }
+    let side = -d.y.signum();
+    let t = (side * half - o.y) / d.y;
+    let (x, z) = (o.x + t * d.x, o.z + t * d.z);
+    (t > 0.0 && x * x + z * z <= radius * radius).then_some(Hit {
+        t,
+        normal: DVec3::Y * side,
+    })
+}
+
+impl Terrain {
+    /// Height above y = 0 at (x, z), and its slopes along x and z.
+    fn height(&self, x: f64, z: f64) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        for (octave, (finer, strength)) in [(1.0, 1.0), (2.03, 0.4), (4.1, 0.14)].iter().enumerate()
+        {
+            let per = finer / self.spacing;
+            let [h, hx, hz] = plane_noise(x * per, z * per, self.seed + octave as u32);
+            sum[0] += strength * h;
+            sum[1] += strength * hx * per;
+            sum[2] += strength * hz * per;
+        }
+        sum.map(|s| self.amplitude * s)
+    }
+
+    /// Marches with steps that the steepest slope keeps from jumping over a hill, then closes in on
+    /// the crossing by Newton's method, kept between its two sides by bisection.
+    fn hit(&self, o: DVec3, d: DVec3) -> Option<Hit> {
+        const FAR: f64 = 60.0;
+        if d.y <= 0.0 {
+            return None;
+        }
+        // Height of the ray above the land, and how that changes along it.
+        let above = |t: f64| {
+            let [h, hx, hz] = self.height(o.x + t * d.x, o.z + t * d.z);
+            (
+                -(o.y + t * d.y) - h,
+                -d.y - hx * d.x - hz * d.z,
+                DVec3::new(-hx, -1.0, -hz),
+            )
+        };
+        // Nothing to meet above the highest hill.
+        let mut t = ((-self.amplitude - o.y) / d.y).max(0.0);
+        let steepest = 1.5 * self.amplitude / self.spacing;
+        let fall = d.y + steepest * d.x.hypot(d.z);
+        // Grazing rays end too: no hill is narrower than the least step.
+        let least = 0.02 * self.spacing;
+        let (mut gap, mut change, mut normal) = above(t);
+        let mut outside = t;
+        while gap > 0.0 {
+            outside = t;
+            t += (gap / fall).max(least);
+            if t > FAR {
+                return None;
+            }
+            (gap, change, normal) = above(t);
+        }
+        let mut inside = t;
+        for _ in 0..20 {
+            if gap.abs() < 1e-9 {
+                break;
+            }
+            let newton = t - gap / change;
+            t = if newton > outside && newton < inside {
+                newton
+            } else {
+                0.5 * (outside + inside)
+            };
+            (gap, change, normal) = above(t);
+            if gap > 0.0 {
+                outside = t;
+            } else {
+                inside = t;
+            }
+        }
+        Some(Hit {
+            t,
+            normal: normal.normalize(),
+        })
+    }
+}
