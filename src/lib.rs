@@ -14,6 +14,7 @@ pub mod motion;
 pub mod options;
 pub mod scene;
 pub mod solver;
+pub mod warp;
 
 pub use camera::{Camera, RigidMotion};
 pub use curves::Shape;

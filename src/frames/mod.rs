@@ -4,6 +4,6 @@ mod derivatives;
 mod frame;
 mod gaussian;
 
-pub use derivatives::Derivatives;
+pub use derivatives::{Derivatives, gradient};
 pub use frame::{Frame, FramePair, MAX_SIDE, MIN_SIDE};
 pub use gaussian::blur;

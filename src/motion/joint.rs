@@ -1,0 +1,184 @@
+//! Motion and depth of one region together: a Gauss–Newton step in which depth is eliminated exactly.
+//!
+//! With r ≈ r + a δρ + b·δm at each pixel (warp.rs; m = (T, ω)) and a smooth depth, the step minimises
+//!
+//! ```text
+//! Σ ω_i (r + a δρ + b·δm)² + Σ_edges c_ij ((ρ+δρ)_i − (ρ+δρ)_j − plane_i + plane_j)² + prior(m)
+//! ```
+//!
+//! Alternating between depth and motion crawls along the valleys in which a small motion and a slant of
+//! the depth undo each other. Here the best depth for *every* motion is known to first order,
+//! δρ = x + S δm, with one linear system of seven right-hand sides, A x = −(ω a r + L(ρ − plane)) and
+//! A S = −ω a b; what is left is 6×6: H = Σ ω b bᵀ + Σ ω a b Sᵀ. T's length is not observable, so that δT
+//! is held perpendicular to T. One step; the caller repeats it around the new linearisation.
+
+use glam::{DQuat, DVec3};
+
+use super::cholesky::solve_positive;
+use crate::camera::RigidMotion;
+use crate::depth::Elliptic;
+use crate::grid::Grid;
+use crate::warp::{RESIDUAL, Row};
+
+/// What a motion may be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// T = 0 and ω = 0.
+    Still,
+    /// T = 0: depth does not show.
+    Rotation,
+    /// ω = 0.
+    Translation,
+    /// Both.
+    #[default]
+    Full,
+}
+
+impl Kind {
+    /// Whether T is free.
+    pub fn translates(self) -> bool {
+        matches!(self, Kind::Translation | Kind::Full)
+    }
+
+    /// Whether ω is free.
+    pub fn rotates(self) -> bool {
+        matches!(self, Kind::Rotation | Kind::Full)
+    }
+}
+
+/// The linear system of a region at its present linearisation.
+pub struct JointStep<'a> {
+    /// Derivatives and residual at every pixel.
+    pub rows: &'a Grid<Row>,
+    /// ω_i: 0 outside the region.
+    pub weight: &'a Grid<f32>,
+    /// A: ω a² on the diagonal, the smoothing's c on the edges.
+    pub system: &'a Elliptic,
+    /// −L(ρ − plane): how the smoothing pulls on ρ as it is.
+    pub pull: &'a Grid<f32>,
+    /// Precision of each component of ω known beforehand, so that the prior is this times |ω|².
+    pub rotation_prior: f64,
+    /// What may move.
+    pub kind: Kind,
+}
+
+/// Where a step leads.
+pub struct Joint {
+    /// The new motion.
+    pub motion: RigidMotion,
+    /// δρ.
+    pub depth_step: Grid<f32>,
+}
+
+/// Residual of the linear systems, relative; later steps start from a better linearisation anyway.
+const TOLERANCE: f64 = 1e-3;
+/// Most iterations of conjugate gradients.
+const MOST_ITERATIONS: usize = 12;
+
+impl JointStep<'_> {
+    /// Takes the step from `motion`.
+    pub fn solve(&self, motion: &RigidMotion) -> Joint {
+        let (width, height) = (self.rows.width(), self.rows.height());
+        let n = self.rows.len();
+        let (rows, weight) = (self.rows.data(), self.weight.data());
+        let mut right = vec![[0.0f32; 8]; n];
+        let mut sum_bb = [[0.0f64; 6]; 6];
+        let mut sum_br = [0.0f64; 6];
+        for i in 0..n {
+            let (row, w) = (&rows[i], weight[i]);
+            right[i][0] = self.pull.data()[i];
+            if w > 0.0 {
+                let wa = w * row[0];
+                right[i][0] -= wa * row[RESIDUAL];
+                for j in 0..6 {
+                    right[i][1 + j] = -wa * row[1 + j];
+                    let wb = f64::from(w * row[1 + j]);
+                    sum_br[j] += wb * f64::from(row[RESIDUAL]);
+                    for k in 0..=j {
+                        sum_bb[j][k] += wb * f64::from(row[1 + k]);
+                    }
+                }
+            }
+        }
+        let mut solution = vec![[0.0f32; 8]; n];
+        self.system
+            .solve(&right, &mut solution, TOLERANCE, MOST_ITERATIONS);
+        // Σ ω a b · (x, S), the eliminated depth's share.
+        for i in 0..n {
+            if weight[i] > 0.0 {
+                let (b, x) = (&right[i], &solution[i]);
+                for j in 0..6 {
+                    let wab = -f64::from(b[1 + j]);
+                    sum_br[j] += wab * f64::from(x[0]);
+                    for k in 0..=j {
+                        sum_bb[j][k] += wab * f64::from(x[1 + k]);
+                    }
+                }
+            }
+        }
+        for j in 0..6 {
+            for k in 0..j {
+                sum_bb[k][j] = sum_bb[j][k];
+            }
+        }
+        let w = motion.rotation.to_array();
+        for j in 0..3 {
+            sum_bb[3 + j][3 + j] += self.rotation_prior;
+            sum_br[3 + j] += self.rotation_prior * w[j];
+        }
+        let step = self.free_step(&sum_bb, &sum_br, motion);
+        let mut depth_step = Grid::new(width, height, 0.0f32);
+        for (d, x) in depth_step.data_mut().iter_mut().zip(&solution) {
+            *d = x[0] + (0..6).map(|j| x[1 + j] * step[j] as f32).sum::<f32>();
+        }
+        let turn = DVec3::new(step[3], step[4], step[5]);
+        let turn = DQuat::from_scaled_axis(turn);
+        Joint {
+            motion: RigidMotion {
+                translation: turn * motion.translation + DVec3::new(step[0], step[1], step[2]),
+                rotation: (turn * DQuat::from_scaled_axis(motion.rotation)).to_scaled_axis(),
+            },
+            depth_step,
+        }
+    }
+
+    /// −H⁻¹ g over the directions that the kind leaves free.
+    fn free_step(&self, h: &[[f64; 6]; 6], g: &[f64; 6], motion: &RigidMotion) -> [f64; 6] {
+        let mut free: Vec<[f64; 6]> = Vec::new();
+        if self.kind.translates() {
+            let along = motion.translation.normalize_or(DVec3::X);
+            let (a, b) = along.any_orthonormal_pair();
+            for d in [a, b] {
+                free.push([d.x, d.y, d.z, 0.0, 0.0, 0.0]);
+            }
+        }
+        if self.kind.rotates() {
+            for j in 3..6 {
+                let mut unit = [0.0; 6];
+                unit[j] = 1.0;
+                free.push(unit);
+            }
+        }
+        // Directions that are not free become equations x = 0.
+        let mut a = [[0.0; 6]; 6];
+        let mut b = [0.0; 6];
+        for (i, row) in a.iter_mut().enumerate() {
+            row[i] = 1.0;
+        }
+        for (i, p) in free.iter().enumerate() {
+            for (j, q) in free.iter().enumerate() {
+                a[i][j] = (0..6)
+                    .map(|r| p[r] * (0..6).map(|c| h[r][c] * q[c]).sum::<f64>())
+                    .sum();
+            }
+            b[i] = -(0..6).map(|r| p[r] * g[r]).sum::<f64>();
+            // A touch of damping for motions that the region hardly shows.
+            a[i][i] *= 1.0 + 1e-6;
+        }
+        let Some(x) = solve_positive(&a, &b) else {
+            return [0.0; 6];
+        };
+        std::array::from_fn(|r| free.iter().zip(&x).map(|(p, x)| p[r] * x).sum())
+    }
+}

@@ -1,0 +1,124 @@
+//! The constraint linearised around a motion that is known already, for displacements of any size.
+//!
+//! With the displacement w of a region's present (ρ, T, ω), the residual r = I2(x + w) − I1(x) changes
+//! by ψ's coefficients *at the point reached*: with P'ρ = R(ω) ray + ρT = (X, Y, D), x' = (fX/D, fY/D),
+//!
+//! ```text
+//! r(ρ+δρ, T+δT, δω∘ω) ≈ r + (s·T/D) δρ + (ρ/D) s·δT + q·δω        s, q of constraint.rs at x'
+//! ```
+//!
+//! where δω turns the point after it has moved: P'' = R(δω) P' + δT. The motion is exact here, not
+//! (1): past a few pixels the difference counts. ∇I is the mean of I1's and the warped I2's gradient.
+//! Grey levels throughout; x' in pixels from the principal point.
+
+use crate::camera::{Camera, RigidMotion};
+use crate::frames::gradient;
+use crate::grid::Grid;
+
+/// ∂r/∂ρ, ∂r/∂T (3), ∂r/∂ω (3) and r at one pixel.
+pub type Row = [f32; 8];
+
+/// Index of r in a [`Row`].
+pub const RESIDUAL: usize = 7;
+
+/// Two frames at one scale with what warping them needs.
+#[derive(Clone, Debug)]
+pub struct Scale {
+    /// The camera at this scale.
+    pub camera: Camera,
+    /// Brightness of the first frame.
+    pub first: Grid<f32>,
+    /// Brightness of the second frame.
+    pub second: Grid<f32>,
+    first_gradient: (Grid<f32>, Grid<f32>),
+    second_gradient: (Grid<f32>, Grid<f32>),
+}
+
+/// A region's constraint at every pixel of the frame.
+#[derive(Clone, Debug)]
+pub struct Linearisation {
+    /// Derivatives and residual; all 0 where the point leaves the frame.
+    pub rows: Grid<Row>,
+    /// ‖∇I‖, grey levels per pixel.
+    pub contrast: Grid<f32>,
+    /// Whether the point is still in the frame.
+    pub inside: Grid<bool>,
+}
+
+impl Scale {
+    /// Prepares two frames of the same size.
+    pub fn new(camera: Camera, first: Grid<f32>, second: Grid<f32>) -> Self {
+        Self {
+            first_gradient: gradient(&first),
+            second_gradient: gradient(&second),
+            camera,
+            first,
+            second,
+        }
+    }
+
+    /// Columns.
+    pub fn width(&self) -> usize {
+        self.first.width()
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.first.height()
+    }
+
+    /// Linearises around `motion` at inverse depth `rho`.
+    pub fn linearise(&self, motion: &RigidMotion, rho: &Grid<f32>) -> Linearisation {
+        let (width, height) = (self.width(), self.height());
+        let mut rows = Grid::new(width, height, [0.0; 8]);
+        let mut contrast = Grid::new(width, height, 0.0);
+        let mut inside = Grid::new(width, height, false);
+        let turn = motion.matrix().as_mat3();
+        let t = motion.translation.as_vec3();
+        let f = self.camera.focal as f32;
+        let (cx, cy) = (self.camera.cx as f32, self.camera.cy as f32);
+        let (right, bottom) = ((width - 1) as f32, (height - 1) as f32);
+        for py in 0..height {
+            for px in 0..width {
+                let at = (px, py);
+                let ray = glam::Vec3::new((px as f32 - cx) / f, (py as f32 - cy) / f, 1.0);
+                let rho = rho[at];
+                let moved = turn * ray + t * rho;
+                if moved.z < 1e-3 {
+                    continue;
+                }
+                let over = moved.z.recip();
+                let (x, y) = (f * moved.x * over, f * moved.y * over);
+                let (qx, qy) = (x + cx, y + cy);
+                if !(qx >= 0.0 && qy >= 0.0 && qx <= right && qy <= bottom) {
+                    continue;
+                }
+                inside[at] = true;
+                let ix =
+                    0.5 * (self.first_gradient.0[at] + self.second_gradient.0.bilinear(qx, qy));
+                let iy =
+                    0.5 * (self.first_gradient.1[at] + self.second_gradient.1.bilinear(qx, qy));
+                let residual = self.second.cubic(qx, qy) - self.first[at];
+                let e = x * ix + y * iy;
+                let s = glam::Vec3::new(f * ix, f * iy, -e);
+                let near = rho * over;
+                rows[at] = [
+                    s.dot(t) * over,
+                    s.x * near,
+                    s.y * near,
+                    s.z * near,
+                    -f * iy - y * e / f,
+                    f * ix + x * e / f,
+                    x * iy - y * ix,
+                    residual,
+                ];
+                contrast[at] = ix.hypot(iy);
+            }
+        }
+        Linearisation {
+            rows,
+            contrast,
+            inside,
+        }
+    }
+}
