@@ -24,3 +24,6 @@ pub use grid::Grid;
 pub use interpretation::{Flow, Interpretation};
 pub use options::Options;
 pub use solver::{Solver, Status};
+
+#[cfg(target_arch = "wasm32")]
+pub mod wasm;
