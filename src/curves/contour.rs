@@ -1,0 +1,143 @@
+//! From a level set to the curve itself: marching squares at φ = 0, φ > 0 inside.
+//!
+//! Points lie between pixels, where φ interpolated along the line between two neighbours crosses
+//! zero; coordinates are pixels, (0, 0) the centre of the top-left pixel. A region that reaches the
+//! frame's border is closed along it, half a pixel outside the outermost centres. On screen, with y
+//! downwards, outer curves run clockwise and holes counter-clockwise, the inside on the right.
+
+use serde::Serialize;
+use std::collections::HashMap;
+
+use crate::grid::Grid;
+
+/// A sub-pixel polyline around (a part of) a region.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Contour {
+    /// The region it bounds: k for the k-th curve.
+    pub label: u8,
+    /// Its points `[x, y]` in order; the last is joined to the first when `closed`.
+    pub points: Vec<[f32; 2]>,
+    /// Whether it returns to its start, which those of level sets always do.
+    pub closed: bool,
+}
+
+/// All curves of a level set, largest first; none when it has only one sign. What is not a number
+/// counts as outside.
+pub fn contours(level_set: &Grid<f32>, label: u8) -> Vec<Contour> {
+    let (width, height) = (level_set.width(), level_set.height());
+    if level_set.is_empty() {
+        return Vec::new();
+    }
+    // One ring of pixels around the frame with the sign turned: the zero then lies half-way to it.
+    let phi = |x: usize, y: usize| -> f32 {
+        let (x, y) = (x as isize - 1, y as isize - 1);
+        let value = level_set.clamped(x, y);
+        let inside = x >= 0 && y >= 0 && x < width as isize && y < height as isize;
+        if inside { value } else { -value.abs() }
+    };
+    let mut next: HashMap<Edge, Edge> = HashMap::new();
+    let mut starts = Vec::new();
+    for y in 0..=height {
+        for x in 0..=width {
+            let corners = [phi(x, y), phi(x + 1, y), phi(x + 1, y + 1), phi(x, y + 1)];
+            for (from, to) in links(corners) {
+                let edge = |side: usize| match side {
+                    0 => Edge::across(x, y),
+                    1 => Edge::down(x + 1, y),
+                    2 => Edge::across(x, y + 1),
+                    _ => Edge::down(x, y),
+                };
+                starts.push(edge(from));
+                next.insert(edge(from), edge(to));
+            }
+        }
+    }
+    let mut found = Vec::new();
+    for start in starts {
+        let mut points = Vec::new();
+        let mut edge = start;
+        while let Some(following) = next.remove(&edge) {
+            points.push(edge.crossing(&phi));
+            edge = following;
+        }
+        if points.len() > 2 {
+            found.push(Contour {
+                label,
+                points,
+                closed: true,
+            });
+        }
+    }
+    found.sort_by_key(|c| std::cmp::Reverse(c.points.len()));
+    found
+}
+
+/// The line between two neighbouring pixels of the padded level set.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Edge {
+    x: u32,
+    y: u32,
+    down: bool,
+}
+
+impl Edge {
+    fn across(x: usize, y: usize) -> Self {
+        Self {
+            x: x as u32,
+            y: y as u32,
+            down: false,
+        }
+    }
+
+    fn down(x: usize, y: usize) -> Self {
+        Self {
+            down: true,
+            ..Self::across(x, y)
+        }
+    }
+
+    fn crossing(self, phi: &impl Fn(usize, usize) -> f32) -> [f32; 2] {
+        let (x, y) = (self.x as usize, self.y as usize);
+        let a = phi(x, y);
+        let b = if self.down {
+            phi(x, y + 1)
+        } else {
+            phi(x + 1, y)
+        };
+        let t = a / (a - b);
+        let t = if t.is_finite() {
+            t.clamp(0.0, 1.0)
+        } else {
+            0.5
+        };
+        // Less the ring of padding.
+        let (x, y) = (x as f32 - 1.0, y as f32 - 1.0);
+        if self.down { [x, y + t] } else { [x + t, y] }
+    }
+}
+
+/// Which side of a cell leads to which, the inside on the right. Corners clockwise from the top
+/// left, side i between corners i and i + 1. A saddle is joined when its mean is inside.
+fn links(corners: [f32; 4]) -> impl Iterator<Item = (usize, usize)> {
+    let inside = corners.map(|c| c > 0.0);
+    // Walking clockwise round the cell, the curve enters it where the walk leaves the inside
+    // and leaves it where the walk comes in again.
+    let entries: Vec<usize> = (0..4)
+        .filter(|&i| inside[i] && !inside[(i + 1) % 4])
+        .collect();
+    let joined = entries.len() == 2 && corners.iter().sum::<f32>() > 0.0;
+    entries.into_iter().map(move |entry| {
+        // Side at which the stretch of inside corners that ends at `entry` began, or, joined, the
+        // side at which the stretch after it begins.
+        let exit = if joined {
+            (1..4)
+                .map(|step| (entry + step) % 4)
+                .find(|&i| !inside[i] && inside[(i + 1) % 4])
+        } else {
+            (1..4)
+                .map(|step| (entry + 4 - step) % 4)
+                .find(|&i| !inside[i] && inside[(i + 1) % 4])
+        };
+        (entry, exit.unwrap_or(entry))
+    })
+}

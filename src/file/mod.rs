@@ -1,0 +1,37 @@
+//! Results as files that other programs read: flow, depth, labels, motion, pictures.
+
+pub mod flo;
+pub mod motion;
+pub mod pfm;
+pub mod png;
+
+use crate::error::Error;
+use crate::frames::MAX_SIDE;
+
+fn unreadable(name: &str, format: &'static str, reason: impl Into<String>) -> Error {
+    Error::File {
+        name: name.to_owned(),
+        format,
+        reason: reason.into(),
+    }
+}
+
+/// The size as pixels if it is one that can be worked on; asked before anything is allocated.
+fn bounded(
+    name: &str,
+    format: &'static str,
+    width: i64,
+    height: i64,
+) -> Result<(usize, usize), Error> {
+    let allowed = 1..=MAX_SIDE as i64;
+    if allowed.contains(&width) && allowed.contains(&height) {
+        return Ok((width as usize, height as usize));
+    }
+    Err(unreadable(
+        name,
+        format,
+        format!(
+            "it says it is {width}×{height} pixels; both sides must lie between 1 and {MAX_SIDE}"
+        ),
+    ))
+}

@@ -1,0 +1,77 @@
+//! motion.json: what moves how, and how the solver came to it.
+//!
+//! T is in units in which the region's mean 1/Z is 1, per frame; ω in radians per frame.
+
+use serde::{Deserialize, Serialize};
+
+use crate::camera::RigidMotion;
+use crate::error::Error;
+
+/// The contents of motion.json.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MotionFile {
+    /// Every region, the background first.
+    pub regions: Vec<RegionMotion>,
+    /// running, converged, exhausted or diverged.
+    pub status: String,
+    /// Passes made.
+    pub iterations: usize,
+    /// Total energy after each pass.
+    pub energy: Vec<f64>,
+    /// Where the time went.
+    pub seconds: Seconds,
+}
+
+/// The motion of one region.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RegionMotion {
+    /// 0 for the background, k for the k-th curve.
+    pub label: u8,
+    /// T = (t1, t2, t3).
+    pub translation: [f64; 3],
+    /// ω = (w1, w2, w3).
+    pub rotation: [f64; 3],
+}
+
+/// Seconds spent, in all and in each of the three steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Seconds {
+    /// All passes.
+    pub total: f64,
+    /// Step 1.
+    pub motion: f64,
+    /// Step 2.
+    pub depth: f64,
+    /// Step 3.
+    pub curves: f64,
+}
+
+impl RegionMotion {
+    /// The motions of regions 0, 1, … as entries.
+    pub fn list(motions: &[RigidMotion]) -> Vec<Self> {
+        let entry = |(k, m): (usize, &RigidMotion)| Self {
+            label: k as u8,
+            translation: m.translation.to_array(),
+            rotation: m.rotation.to_array(),
+        };
+        motions.iter().enumerate().map(entry).collect()
+    }
+}
+
+impl MotionFile {
+    /// The text of the file. Numbers that are not finite become null, as JSON has no others.
+    pub fn write(&self) -> String {
+        serde_json::to_string_pretty(self).expect("plain numbers and text always serialise") + "\n"
+    }
+
+    /// Reads the text of such a file.
+    ///
+    /// # Errors
+    /// [`Error::Json`] for anything else.
+    pub fn read(text: &str) -> Result<Self, Error> {
+        serde_json::from_str(text).map_err(|e| Error::Json {
+            what: "motion.json",
+            reason: e.to_string(),
+        })
+    }
+}

@@ -1,0 +1,149 @@
+//! How far an interpretation is from the truth.
+//!
+//! AEE is the mean length of the flow's error in pixels, AAE the mean angle in degrees between
+//! (u, v, 1) and the true (u, v, 1). Labels are wrong by the share of pixels that have another than
+//! the true one. Depth has a scale of its own in each region, so it is scored as mean |aẐ − Z|/Z with
+//! a = median(Z/Ẑ) over the region; a translation, whose length has no scale either, by its angle.
+
+use glam::DVec3;
+use serde::Serialize;
+
+use crate::error::Error;
+use crate::grid::Grid;
+use crate::interpretation::{Flow, Interpretation};
+
+/// Distances between an interpretation and the truth. Lists have an entry for each region of the
+/// truth, the background first; an entry is null where there is nothing to compare.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Scores {
+    /// Mean end-point error of the flow in pixels; null when no true flow is known.
+    pub aee: Option<f64>,
+    /// Mean angular error of the flow in degrees.
+    pub aae: Option<f64>,
+    /// Share of pixels with a wrong label, 0–1.
+    pub labels_wrong: f64,
+    /// Pixels in both regions over pixels in either, 0–1.
+    pub iou: Vec<Option<f64>>,
+    /// Mean relative depth error where depth is observable and the point not hidden.
+    pub depth_error: Vec<Option<f64>>,
+    /// What a constant depth would score in the same pixels.
+    pub flat_depth_error: Vec<Option<f64>>,
+    /// Angle between the translations in degrees; null if either is zero.
+    pub translation_angle: Vec<Option<f64>>,
+    /// Length of the difference of the rotations in radians per frame.
+    pub rotation_error: Vec<Option<f64>>,
+}
+
+/// Scores what was found against the truth.
+///
+/// # Errors
+/// [`Error::Length`] when the two are of different sizes.
+pub fn compare(found: &Interpretation, truth: &Interpretation) -> Result<Scores, Error> {
+    same_size(&found.labels, &truth.labels)?;
+    let flow = compare_flow(&found.flow, &truth.flow, None)?;
+    let regions = 0..truth.regions();
+    let pairs = || found.labels.data().iter().zip(truth.labels.data());
+    let wrong = pairs().filter(|(a, b)| a != b).count();
+    let iou = |k: usize| {
+        let is = |label: &u8| usize::from(*label) == k;
+        let both = pairs().filter(|(a, b)| is(a) && is(b)).count();
+        let either = pairs().filter(|(a, b)| is(a) || is(b)).count();
+        (either > 0).then(|| both as f64 / either as f64)
+    };
+    let depths = |k: usize| -> Vec<(f64, f64)> {
+        (0..truth.labels.len())
+            .filter(|&i| usize::from(truth.labels.data()[i]) == k)
+            .filter(|&i| truth.confidence.data()[i] > 0.0 && truth.occluded.data()[i] == 0)
+            .map(|i| (found.depth.data()[i].into(), truth.depth.data()[i].into()))
+            .filter(|&(_, z): &(f64, f64)| z.is_finite() && z > 0.0)
+            .collect()
+    };
+    let flat = |k: usize| depths(k).iter().map(|&(_, z)| (1.0, z)).collect::<Vec<_>>();
+    let motions = |k: usize| Some((found.motions.get(k)?, truth.motions.get(k)?));
+    Ok(Scores {
+        aee: flow.map(|f| f.0),
+        aae: flow.map(|f| f.1),
+        labels_wrong: wrong as f64 / truth.labels.len().max(1) as f64,
+        iou: regions.clone().map(iou).collect(),
+        depth_error: regions.clone().map(|k| depth_error(&depths(k))).collect(),
+        flat_depth_error: regions.clone().map(|k| depth_error(&flat(k))).collect(),
+        translation_angle: regions
+            .clone()
+            .map(|k| motions(k).and_then(|(a, b)| angle(a.translation, b.translation)))
+            .collect(),
+        rotation_error: regions
+            .map(|k| motions(k).map(|(a, b)| (a.rotation - b.rotation).length()))
+            .collect(),
+    })
+}
+
+/// (AEE in pixels, AAE in degrees) over the pixels whose true flow is known and, if a mask is given,
+/// where that is not 0; `None` when there are none. A flow that was not found counts as no motion.
+///
+/// # Errors
+/// [`Error::Length`] when sizes differ.
+pub fn compare_flow(
+    found: &Flow,
+    truth: &Flow,
+    mask: Option<&Grid<u8>>,
+) -> Result<Option<(f64, f64)>, Error> {
+    same_size(&found.u, &truth.u)?;
+    if let Some(mask) = mask {
+        same_size(mask, &truth.u)?;
+    }
+    let known = |w: f32| if w.is_nan() { 0.0 } else { f64::from(w) };
+    let (mut lengths, mut angles, mut count) = (0.0, 0.0, 0_usize);
+    for i in 0..truth.u.len() {
+        let (u, v) = (truth.u.data()[i], truth.v.data()[i]);
+        if !(u.is_finite() && v.is_finite()) || mask.is_some_and(|m| m.data()[i] == 0) {
+            continue;
+        }
+        let a = DVec3::new(known(found.u.data()[i]), known(found.v.data()[i]), 1.0);
+        let b = DVec3::new(u.into(), v.into(), 1.0);
+        lengths += (a - b).length();
+        angles += angle(a, b).unwrap_or(0.0);
+        count += 1;
+    }
+    let n = count as f64;
+    Ok((count > 0).then(|| (lengths / n, angles / n)))
+}
+
+/// Mean |aẐ − Z|/Z over pairs (Ẑ, Z), a = median(Z/Ẑ).
+fn depth_error(pairs: &[(f64, f64)]) -> Option<f64> {
+    if pairs.is_empty() {
+        return None;
+    }
+    let mut ratios: Vec<f64> = pairs.iter().map(|(found, z)| z / found).collect();
+    ratios.sort_by(f64::total_cmp);
+    let middle = ratios.len() / 2;
+    let a = if ratios.len() % 2 == 1 {
+        ratios[middle]
+    } else {
+        (ratios[middle - 1] + ratios[middle]) / 2.0
+    };
+    let sum: f64 = pairs
+        .iter()
+        .map(|(found, z)| (a * found - z).abs() / z)
+        .sum();
+    Some(sum / pairs.len() as f64)
+}
+
+/// Angle between two vectors in degrees, `None` if either is zero. By both sine and cosine: the
+/// arc cosine alone loses small angles.
+fn angle(a: DVec3, b: DVec3) -> Option<f64> {
+    let defined = a.length() > 0.0 && b.length() > 0.0;
+    defined.then(|| a.cross(b).length().atan2(a.dot(b)).to_degrees())
+}
+
+fn same_size<T: Copy, U: Copy>(found: &Grid<T>, truth: &Grid<U>) -> Result<(), Error> {
+    if found.same_size(truth) {
+        return Ok(());
+    }
+    Err(Error::Length {
+        what: "a truth",
+        width: truth.width(),
+        height: truth.height(),
+        expected: truth.len(),
+        found: found.len(),
+    })
+}
