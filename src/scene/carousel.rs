@@ -1,5 +1,7 @@
 //! `carousel`: a ball, a box and a drum, each turning about an axis of its own; four regions.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::{DMat3, DVec3};
 
 use super::Entry;
@@ -25,10 +27,16 @@ pub(super) fn stage() -> Stage {
         seed,
     };
     let floor = texture(
-        Pattern::Mottle,
-        palette(0x6b6a66, 0xa6a398, 0xdcd8ca),
-        1.2,
+        Pattern::Speckle,
+        palette(0x77716a, 0xa39a8c, 0xe0dacb),
+        1.3,
         51,
+    );
+    let wall = texture(
+        Pattern::Mottle,
+        palette(0x56646e, 0x8f9a9c, 0xcfcfc4),
+        1.0,
+        55,
     );
     let ball = texture(
         Pattern::Marble,
@@ -76,19 +84,26 @@ pub(super) fn stage() -> Stage {
         part(
             3,
             Solid::Cylinder {
-                radius: 0.75,
-                half: 0.8,
+                radius: 0.85,
+                half: 0.85,
             },
-            Pose::at(2.0, -0.8, 0.6),
+            Pose::at(2.05, -0.85, 0.6),
             Material::shiny(drum, 0.15, 25.0),
+        ),
+        // The ground stood upright at the back of the floor.
+        part(
+            0,
+            Solid::Floor,
+            Pose::at(0.0, 0.0, 3.4).turned(DMat3::from_rotation_x(FRAC_PI_2)),
+            Material::matt(wall),
         ),
     ];
     let centre = |i: usize| parts[i].pose.centre;
     let motions = vec![
         slide(DVec3::ZERO),
-        turn(centre(1), down * 0.018, DVec3::new(0.006, 0.0, 0.0)),
-        turn(centre(2), down * -0.016, DVec3::new(-0.004, 0.002, 0.0)),
-        turn(centre(3), down * 0.018, DVec3::new(-0.004, -0.004, 0.0)),
+        turn(centre(1), down * 0.022, DVec3::new(0.013, 0.004, -0.006)),
+        turn(centre(2), down * -0.020, DVec3::new(-0.008, 0.003, 0.0)),
+        turn(centre(3), down * 0.022, DVec3::new(-0.006, -0.008, 0.0)),
     ];
     Stage {
         parts,

@@ -104,6 +104,11 @@ impl<'a> Caster<'a> {
 
     /// The nearest surface that the ray through pixel `(px, py)` meets; the far background when none.
     pub fn look(&self, px: f64, py: f64) -> Seen {
+        self.look_beyond(px, py, 0.0)
+    }
+
+    /// The same, told that terrain is no nearer than depth `from`.
+    fn look_beyond(&self, px: f64, py: f64, from: f64) -> Seen {
         let d = self.camera.ray(px, py);
         let d2 = d.length_squared();
         let mut seen = Seen {
@@ -121,7 +126,7 @@ impl<'a> Caster<'a> {
             let body = &self.bodies[part.body];
             let (o, d) = (body.to_first(DVec3::ZERO), body.back * d);
             let (o, d) = to_part(part, o, d);
-            if let Some(hit) = part.solid.hit(o, d)
+            if let Some(hit) = part.solid.hit(o, d, from)
                 && hit.t < seen.depth
             {
                 seen = Seen {
@@ -143,12 +148,21 @@ impl<'a> Caster<'a> {
         let mut out = vec![DVec3::ZERO; width * height];
         let mut fine = vec![DVec3::ZERO; (width + 2) * FINE];
         let lead = FINE as isize;
-        for j in -1..=(height * FINE) as isize {
+        // Rows from the bottom up: terrain recedes along them, so that what the row below met, less a
+        // fiftieth for the columns' slant, bounds what this one can meet.
+        let mut below = vec![0.0; fine.len()];
+        for j in (-1..=(height * FINE) as isize).rev() {
             let y = (j as f64 - 1.0) * step;
+            let mut left = f64::INFINITY;
             for (i, sample) in fine.iter_mut().enumerate() {
                 let x = (i as isize - lead - 1) as f64 * step;
+                let right = below.get(i + 1).copied().unwrap_or(f64::INFINITY);
+                let from = 0.98 * below[i].min(left).min(right);
+                left = below[i];
                 let lattice = i % FINE + FINE * (j + lead) as usize % (FINE * FINE);
-                *sample = self.colour(x, y, lattice);
+                let seen = self.look_beyond(x, y, from);
+                below[i] = seen.depth;
+                *sample = self.colour(x, y, &seen, lattice);
             }
             for (k, weight) in TENT.iter().enumerate() {
                 // Row y of pixels has its centre at fine row 3y + 1.
@@ -171,9 +185,9 @@ impl<'a> Caster<'a> {
         out.iter().map(|&c| encode(c)).collect()
     }
 
-    /// Linear light through `(px, py)`; `lattice` from 0 to 8 picks the light samples.
-    fn colour(&self, px: f64, py: f64, lattice: usize) -> DVec3 {
-        let seen = self.look(px, py);
+    /// Linear light of what is `seen` through `(px, py)`; `lattice` from 0 to 8 picks the light
+    /// samples.
+    fn colour(&self, px: f64, py: f64, seen: &Seen, lattice: usize) -> DVec3 {
         let light = &self.stage.light;
         let (loss, haze) = self.stage.haze;
         if seen.part == usize::MAX {
@@ -247,7 +261,7 @@ impl<'a> Caster<'a> {
                     (body.to_first(o), body.back * *ray)
                 };
                 let (o, d) = to_part(part, o, d);
-                *dark = part.solid.hit(o, d).is_some();
+                *dark = part.solid.hit(o, d, 0.0).is_some();
             }
         }
         let hidden = dark.iter().filter(|&&d| d).count();

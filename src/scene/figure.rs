@@ -37,7 +37,7 @@ pub(super) fn stage() -> Stage {
     let bow = Texture {
         pattern: Pattern::Speckle,
         colours: palette(0x8e1420, 0xc4262f, 0xf4e6d8),
-        scale: 0.4,
+        scale: 0.6,
         grain: 0.3,
         seed: 24,
     };

@@ -3,8 +3,9 @@
 use glam::DVec3;
 
 use super::Entry;
-use super::solid::{Solid, Terrain};
+use super::solid::Solid;
 use super::stage::{Light, Material, Part, Pose, Shadows, Stage, turn};
+use super::terrain::Terrain;
 use super::texture::{Pattern, Texture, palette, srgb};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -17,9 +18,9 @@ pub(super) const ENTRY: Entry = Entry {
 pub(super) fn stage() -> Stage {
     let land = Texture {
         pattern: Pattern::Strata,
-        colours: palette(0x3f5a2c, 0x8a8a52, 0xcdb98c),
+        colours: palette(0x3c5428, 0x8f8350, 0xd9bf8c),
         scale: 0.6,
-        grain: 0.7,
+        grain: 0.5,
         seed: 41,
     };
     let ground = Pose::ground(0.5, 4.6);
@@ -27,11 +28,7 @@ pub(super) fn stage() -> Stage {
     // The land moves past the camera: the opposite of the camera's own motion.
     Stage {
         parts: vec![Part {
-            solid: Solid::Terrain(Terrain {
-                amplitude: 0.9,
-                spacing: 1.8,
-                seed: 42,
-            }),
+            solid: Solid::Terrain(Terrain::new(0.9, 1.8, 42)),
             pose: ground,
             material: Material::matt(land),
             body: 0,
@@ -42,11 +39,11 @@ pub(super) fn stage() -> Stage {
             ground.direction(DVec3::new(0.003, 0.0, -0.012)),
         )],
         light: Light::daylight(
-            ground.direction(DVec3::new(-1.0, -0.75, 0.25)),
+            ground.direction(DVec3::new(-1.0, -0.6, 0.2)),
             ground.direction(DVec3::NEG_Y),
             0.05,
         ),
         shadows: Shadows::Painted,
-        haze: (0.035, sky),
+        haze: (0.022, sky),
     }
 }

@@ -55,7 +55,7 @@ pub(super) fn stage() -> Stage {
     let wall = Texture {
         pattern: Pattern::Speckle,
         colours: palette(0x4b5b45, 0x8b9a72, 0xe2dcc0),
-        scale: 1.0,
+        scale: 1.6,
         grain: 0.7,
         seed: 36,
     };
@@ -76,11 +76,11 @@ pub(super) fn stage() -> Stage {
             body: 0,
         },
         lump(0.0, 0.0, 0.0, [0.86, 1.12, 0.95], flesh),
-        lump(0.0, 0.62, -0.28, [0.56, 0.56, 0.56], flesh),
+        lump(0.0, 0.5, -0.2, [0.62, 0.66, 0.6], flesh),
         lump(0.0, -0.28, 0.16, [0.95, 1.05, 0.98], Material::matt(hair)),
         lump(0.0, 0.16, -0.98, [0.13, 0.26, 0.2], flesh),
         lump(0.0, 0.3, -1.04, [0.17, 0.11, 0.14], flesh),
-        lump(0.0, 0.62, -0.78, [0.25, 0.07, 0.08], Material::matt(lips)),
+        lump(0.0, 0.6, -0.79, [0.25, 0.07, 0.1], Material::matt(lips)),
         Part {
             solid: Solid::Cylinder {
                 radius: 0.52,
@@ -116,7 +116,7 @@ pub(super) fn stage() -> Stage {
     }
     Stage {
         parts,
-        motions: vec![slide(DVec3::ZERO), slide(DVec3::new(-0.009, 0.001, 0.035))],
+        motions: vec![slide(DVec3::ZERO), slide(DVec3::new(-0.0085, 0.0, 0.026))],
         light: Light::daylight(
             DVec3::new(0.8, -0.8, -1.0),
             DVec3::new(0.0, -1.0, -0.2),

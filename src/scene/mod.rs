@@ -6,6 +6,7 @@
 mod blocks;
 mod carousel;
 mod cast;
+mod dice;
 mod figure;
 mod flight;
 mod head;
@@ -13,8 +14,10 @@ mod noise;
 mod solid;
 mod squares;
 mod stage;
+mod terrain;
 mod texture;
 mod truth;
+mod variant;
 
 use serde::Serialize;
 
@@ -25,6 +28,8 @@ use crate::frames::{Frame, MAX_SIDE, MIN_SIDE};
 use crate::interpretation::Interpretation;
 use cast::{Caster, Moment};
 use stage::Stage;
+
+pub use variant::variant;
 
 /// Two frames, the curves to start from, and the truth.
 #[derive(Clone, Debug, PartialEq)]

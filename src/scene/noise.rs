@@ -37,13 +37,8 @@ const PLANE_GRADIENTS: [[f64; 2]; 8] = [
 
 /// Noise at `p`, with mean 0 and standard deviation about 0.3.
 pub fn gradient_noise(p: DVec3, seed: u32) -> f64 {
-    let cell = p.floor();
-    let f = p - cell;
-    let (x, y, z) = (
-        cell.x as i64 as u32,
-        cell.y as i64 as u32,
-        cell.z as i64 as u32,
-    );
+    let ((x, fx), (y, fy), (z, fz)) = (split(p.x), split(p.y), split(p.z));
+    let f = DVec3::new(fx, fy, fz);
     // The hash is a sum of one product per axis, so each is worked out once for eight corners.
     let hx = [x, x.wrapping_add(1)].map(|v| v.wrapping_mul(0x8da6_b343));
     let hy = [y, y.wrapping_add(1)].map(|v| v.wrapping_mul(0xd816_3841));
@@ -70,34 +65,24 @@ pub fn gradient_noise(p: DVec3, seed: u32) -> f64 {
     a + w.z * (along_y(1) - a)
 }
 
-/// Noise over the plane at `(x, y)`: its value, of standard deviation about 0.35, and its slopes
-/// along x and y.
-pub fn plane_noise(x: f64, y: f64, seed: u32) -> [f64; 3] {
-    let (cx, cy) = (x.floor(), y.floor());
-    let (fx, fy) = (x - cx, y - cy);
-    let (ix, iy) = (cx as i64 as u32, cy as i64 as u32);
-    let hx = [ix, ix.wrapping_add(1)].map(|v| v.wrapping_mul(0x8da6_b343));
-    let hy = [iy, iy.wrapping_add(1)].map(|v| v.wrapping_mul(0xd816_3841));
-    let s = seed.wrapping_mul(0x9e37_79b9);
-    let corner = |i: usize, j: usize| {
-        let g = &PLANE_GRADIENTS[(mix(hx[i] ^ hy[j] ^ s) & 7) as usize];
-        let value = g[0] * (fx - i as f64) + g[1] * (fy - j as f64);
-        [value, g[0], g[1]]
+/// Noise over the plane at `(x, y)` that repeats every `period` cells, a power of two.
+pub fn plane_noise(x: f64, y: f64, period: u32, seed: u32) -> f64 {
+    let ((ix, fx), (iy, fy)) = (split(x), split(y));
+    let corner = |i: u32, j: u32| {
+        let (cx, cy) = ((ix.wrapping_add(i)) % period, (iy.wrapping_add(j)) % period);
+        let h = cx.wrapping_mul(0x8da6_b343)
+            ^ cy.wrapping_mul(0xd816_3841)
+            ^ seed.wrapping_mul(0x9e37_79b9);
+        let g = &PLANE_GRADIENTS[(mix(h) & 7) as usize];
+        g[0] * (fx - f64::from(i)) + g[1] * (fy - f64::from(j))
     };
-    let [a, b, c, d] = [corner(0, 0), corner(1, 0), corner(0, 1), corner(1, 1)];
     let weight = |f: f64| f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-    let slope = |f: f64| 30.0 * f * f * (f * (f - 2.0) + 1.0);
-    let (wx, wy) = (weight(fx), weight(fy));
-    let blend = |k: usize| {
-        let top = a[k] + wx * (b[k] - a[k]);
-        top + wy * (c[k] + wx * (d[k] - c[k]) - top)
+    let row = |j: u32| {
+        let a = corner(0, j);
+        a + weight(fx) * (corner(1, j) - a)
     };
-    let twist = a[0] - b[0] - c[0] + d[0];
-    [
-        blend(0),
-        blend(1) + slope(fx) * (b[0] - a[0] + wy * twist),
-        blend(2) + slope(fy) * (c[0] - a[0] + wx * twist),
-    ]
+    let top = row(0);
+    top + weight(fy) * (row(1) - top)
 }
 
 /// A sum of octaves of [`gradient_noise`], the coarsest with cells of size `scale`, each next half as
@@ -122,6 +107,14 @@ pub fn octaves(p: DVec3, scale: f64, gain: f64, footprint: f64, seed: u32) -> f6
         strength *= gain;
     }
     sum / power.sqrt()
+}
+
+/// The whole number below `v`, modulo 2³², and what `v` exceeds it by. Spelt out because `floor` is a call where the processor
+/// may be old.
+pub fn split(v: f64) -> (u32, f64) {
+    let cut = v as i32;
+    let cell = cut - i32::from(v < f64::from(cut));
+    (cell as u32, v - f64::from(cell))
 }
 
 fn mix(mut h: u32) -> u32 {

@@ -6,10 +6,10 @@
 
 use glam::DVec3;
 
-use super::noise::plane_noise;
+use super::terrain::Terrain;
 
 /// A shape without place or colour.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Solid {
     /// The box |x| ≤ h.x, |y| ≤ h.y, |z| ≤ h.z.
     Cuboid(DVec3),
@@ -28,17 +28,6 @@ pub enum Solid {
     Terrain(Terrain),
 }
 
-/// Hills: three octaves of gradient noise.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Terrain {
-    /// Greatest height above and below y = 0.
-    pub amplitude: f64,
-    /// Distance between neighbouring hills.
-    pub spacing: f64,
-    /// Which land.
-    pub seed: u32,
-}
-
 /// Where a ray first meets a solid.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
@@ -49,11 +38,12 @@ pub struct Hit {
 }
 
 impl Solid {
-    /// The first meeting of the ray o + t d with t > 0, o outside the solid.
-    pub fn hit(&self, o: DVec3, d: DVec3) -> Option<Hit> {
-        match *self {
-            Solid::Cuboid(half) => hit_cuboid(half, o, d),
-            Solid::Ellipsoid(radii) => hit_ellipsoid(radii, o, d),
+    /// The first meeting of the ray o + t d with t > 0, o outside the solid. Marching through terrain
+    /// starts at `from`, which a caller who knows that nothing is nearer sets above 0.
+    pub fn hit(&self, o: DVec3, d: DVec3, from: f64) -> Option<Hit> {
+        match self {
+            &Solid::Cuboid(half) => hit_cuboid(half, o, d),
+            &Solid::Ellipsoid(radii) => hit_ellipsoid(radii, o, d),
             Solid::Floor => {
                 let t = -o.y / d.y;
                 (d.y > 0.0 && t > 0.0).then_some(Hit {
@@ -61,8 +51,8 @@ impl Solid {
                     normal: DVec3::NEG_Y,
                 })
             }
-            Solid::Cylinder { radius, half } => hit_cylinder(radius, half, o, d),
-            Solid::Terrain(terrain) => terrain.hit(o, d),
+            &Solid::Cylinder { radius, half } => hit_cylinder(radius, half, o, d),
+            Solid::Terrain(terrain) => terrain.hit(o, d, from),
         }
     }
 
@@ -134,76 +124,4 @@ fn hit_cylinder(radius: f64, half: f64, o: DVec3, d: DVec3) -> Option<Hit> {
         t,
         normal: DVec3::Y * side,
     })
-}
-
-impl Terrain {
-    /// Height above y = 0 at (x, z), and its slopes along x and z.
-    fn height(&self, x: f64, z: f64) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for (octave, (finer, strength)) in [(1.0, 1.0), (2.03, 0.4), (4.1, 0.14)].iter().enumerate()
-        {
-            let per = finer / self.spacing;
-            let [h, hx, hz] = plane_noise(x * per, z * per, self.seed + octave as u32);
-            sum[0] += strength * h;
-            sum[1] += strength * hx * per;
-            sum[2] += strength * hz * per;
-        }
-        sum.map(|s| self.amplitude * s)
-    }
-
-    /// Marches with steps that the steepest slope keeps from jumping over a hill, then closes in on
-    /// the crossing by Newton's method, kept between its two sides by bisection.
-    fn hit(&self, o: DVec3, d: DVec3) -> Option<Hit> {
-        const FAR: f64 = 60.0;
-        if d.y <= 0.0 {
-            return None;
-        }
-        // Height of the ray above the land, and how that changes along it.
-        let above = |t: f64| {
-            let [h, hx, hz] = self.height(o.x + t * d.x, o.z + t * d.z);
-            (
-                -(o.y + t * d.y) - h,
-                -d.y - hx * d.x - hz * d.z,
-                DVec3::new(-hx, -1.0, -hz),
-            )
-        };
-        // Nothing to meet above the highest hill.
-        let mut t = ((-self.amplitude - o.y) / d.y).max(0.0);
-        let steepest = 1.5 * self.amplitude / self.spacing;
-        let fall = d.y + steepest * d.x.hypot(d.z);
-        // Grazing rays end too: no hill is narrower than the least step.
-        let least = 0.02 * self.spacing;
-        let (mut gap, mut change, mut normal) = above(t);
-        let mut outside = t;
-        while gap > 0.0 {
-            outside = t;
-            t += (gap / fall).max(least);
-            if t > FAR {
-                return None;
-            }
-            (gap, change, normal) = above(t);
-        }
-        let mut inside = t;
-        for _ in 0..20 {
-            if gap.abs() < 1e-9 {
-                break;
-            }
-            let newton = t - gap / change;
-            t = if newton > outside && newton < inside {
-                newton
-            } else {
-                0.5 * (outside + inside)
-            };
-            (gap, change, normal) = above(t);
-            if gap > 0.0 {
-                outside = t;
-            } else {
-                inside = t;
-            }
-        }
-        Some(Hit {
-            t,
-            normal: normal.normalize(),
-        })
-    }
 }

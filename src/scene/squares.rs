@@ -17,8 +17,8 @@ pub(super) const ENTRY: Entry = Entry {
 pub(super) fn stage() -> Stage {
     let wall = Texture {
         pattern: Pattern::Mottle,
-        colours: palette(0x3b5560, 0x86a09a, 0xd9dccb),
-        scale: 1.2,
+        colours: palette(0x5d5a4e, 0x9c9a86, 0xdad6c0),
+        scale: 0.9,
         grain: 0.35,
         seed: 1,
     };
@@ -32,7 +32,7 @@ pub(super) fn stage() -> Stage {
     let right = Texture {
         pattern: Pattern::Speckle,
         colours: palette(0x24386b, 0x4f79b8, 0xe8e6d6),
-        scale: 0.8,
+        scale: 1.3,
         grain: 0.35,
         seed: 3,
     };

@@ -21,7 +21,7 @@ pub struct Pose {
 }
 
 /// A solid in its place.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// Its shape.
     pub solid: Solid,

@@ -60,7 +60,7 @@ impl Texture {
             }
             Pattern::Speckle => {
                 let ground = octaves(p, s, 0.6, footprint, seed);
-                let spots = octaves(p, 0.35 * s, 0.4, footprint, seed.wrapping_add(50));
+                let spots = octaves(p, 0.2 * s, 0.4, footprint, seed.wrapping_add(50));
                 let spot = smoothstep(0.08, 0.28, spots);
                 dark.lerp(middle, (0.5 + ground).clamp(0.0, 1.0))
                     .lerp(light, spot)

@@ -64,33 +64,50 @@ pub fn truth(stage: &Stage, camera: Camera, width: usize, height: usize) -> Inte
     }
 }
 
-/// One circle per body, in the middle of what is seen of it and with a third of that area; where
-/// nothing is seen of it, a small one in the middle of the frame.
+/// Where a body is seen.
+pub struct Middle {
+    /// Column of its centre of gravity, the frame's middle when it is not seen at all.
+    pub x: f64,
+    /// Row of it.
+    pub y: f64,
+    /// Pixels that show it.
+    pub pixels: f64,
+}
+
+/// Where each body but the background is seen.
+pub fn middles(labels: &Grid<u8>, bodies: usize) -> Vec<Middle> {
+    let mut sums = vec![(0.0_f64, 0.0_f64, 0.0_f64); bodies];
+    for (i, &label) in labels.data().iter().enumerate() {
+        let (n, x, y) = &mut sums[usize::from(label)];
+        *n += 1.0;
+        *x += (i % labels.width()) as f64;
+        *y += (i / labels.width()) as f64;
+    }
+    let unseen = ((labels.width() / 2) as f64, (labels.height() / 2) as f64);
+    sums[1..]
+        .iter()
+        .map(|&(pixels, x, y)| {
+            let (x, y) = if pixels > 0.0 {
+                (x / pixels, y / pixels)
+            } else {
+                unseen
+            };
+            Middle { x, y, pixels }
+        })
+        .collect()
+}
+
+/// One circle per body, in the middle of what is seen of it and with a third of that area.
 pub fn curves(labels: &Grid<u8>, bodies: usize) -> Vec<Shape> {
-    (1..bodies)
-        .map(|body| {
-            let (mut n, mut sx, mut sy) = (0.0_f64, 0.0, 0.0);
-            for (i, _) in labels
-                .data()
-                .iter()
-                .enumerate()
-                .filter(|&(_, &l)| usize::from(l) == body)
-            {
-                n += 1.0;
-                sx += (i % labels.width()) as f64;
-                sy += (i / labels.width()) as f64;
-            }
-            if n == 0.0 {
-                n = 1.0;
-                sx = (labels.width() / 2) as f64;
-                sy = (labels.height() / 2) as f64;
-            }
-            Shape::Circle {
-                x: sx / n,
-                y: sy / n,
-                // Above half a pixel's diagonal, so that it encloses at least one pixel.
-                r: (n / (3.0 * std::f64::consts::PI)).sqrt().max(0.75),
-            }
+    middles(labels, bodies)
+        .iter()
+        .map(|middle| Shape::Circle {
+            x: middle.x,
+            y: middle.y,
+            // At least half a pixel's diagonal, so that it encloses a pixel.
+            r: (middle.pixels / (3.0 * std::f64::consts::PI))
+                .sqrt()
+                .max(0.75),
         })
         .collect()
 }
