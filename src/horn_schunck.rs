@@ -19,8 +19,13 @@ use crate::frames::FramePair;
 use crate::grid::Grid;
 use crate::interpretation::Flow;
 
-/// The flow of `pair` after `sweeps` sweeps (a few hundred are usual) with smoothness weight
-/// `alpha` > 0 in grey levels per pixel (about 10 for ordinary film). With `alpha` = 0 pixels
+/// A smoothness weight for ordinary film, in grey levels per pixel.
+pub const ALPHA: f32 = 10.0;
+/// Sweeps after which ordinary film hardly changes.
+pub const SWEEPS: usize = 300;
+
+/// The flow of `pair` after `sweeps` sweeps (see [`SWEEPS`]) with smoothness weight
+/// `alpha` > 0 in grey levels per pixel (see [`ALPHA`]). With `alpha` = 0 pixels
 /// without contrast take their neighbours' mean.
 pub fn solve(pair: &FramePair, alpha: f32, sweeps: usize) -> Flow {
     let (width, height) = (pair.width(), pair.height());

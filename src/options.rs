@@ -22,6 +22,18 @@ pub enum Preset {
     Paper,
 }
 
+impl Preset {
+    /// All of them, the default first.
+    pub const ALL: &'static [Self] = &[Self::Paper];
+
+    /// What to show for it.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Paper => "as in the paper",
+        }
+    }
+}
+
 /// How step 1 finds a region's motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

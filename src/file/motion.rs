@@ -56,6 +56,14 @@ impl RegionMotion {
         };
         motions.iter().enumerate().map(entry).collect()
     }
+
+    /// The motion itself.
+    pub fn motion(&self) -> RigidMotion {
+        RigidMotion {
+            translation: self.translation.into(),
+            rotation: self.rotation.into(),
+        }
+    }
 }
 
 impl MotionFile {

@@ -18,7 +18,7 @@ use serde::Serialize;
 use state::State;
 
 use crate::camera::Camera;
-use crate::curves::Shape;
+use crate::curves::{Contour, Shape, contours};
 use crate::energy::Energy;
 use crate::error::Error;
 use crate::frames::{Derivatives, FramePair, blur};
@@ -254,6 +254,12 @@ impl Solver {
     /// What the frames are taken for at present.
     pub fn interpretation(&self) -> Interpretation {
         self.state.interpretation(&self.camera, &self.derivatives)
+    }
+
+    /// The curves as sub-pixel polylines, in the order of their labels.
+    pub fn contours(&self) -> Vec<Contour> {
+        let numbered = self.state.phi.iter().zip(1..);
+        numbered.flat_map(|(phi, k)| contours(phi, k)).collect()
     }
 
     /// Where the solver stands, in numbers.

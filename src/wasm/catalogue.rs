@@ -1,17 +1,41 @@
 //! What the core offers, as JSON, so that no one else keeps a list.
 
-use serde_json::json;
+use serde::Serialize;
+use serde_json::{Map, Value, json};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::write;
 use crate::frames::{MAX_SIDE, MIN_SIDE};
-use crate::options::{self, MAX_CURVES};
+use crate::options::{self, MAX_CURVES, Options, Preset};
 use crate::scene;
 
-/// Every option, described: an array in the order in which a form should show them.
+/// Every option, described: an array in the order in which a form should show them. Each carries its
+/// `defaults`, by preset.
 #[wasm_bindgen(js_name = optionCatalogue)]
 pub fn option_catalogue() -> String {
-    write(options::catalogue())
+    let presets: Vec<(String, Value)> = Preset::ALL
+        .iter()
+        .map(|&preset| (word(preset), value(&Options::preset(preset))))
+        .collect();
+    let described = options::catalogue().iter().map(|descriptor| {
+        let mut described = value(descriptor);
+        let defaults: Map<String, Value> = presets
+            .iter()
+            .map(|(preset, all)| (preset.clone(), all[descriptor.key].clone()))
+            .collect();
+        described["defaults"] = Value::Object(defaults);
+        described
+    });
+    write(&described.collect::<Vec<_>>())
+}
+
+/// Every preset, the default first: an array of `{"value", "label"}`.
+#[wasm_bindgen(js_name = presetCatalogue)]
+pub fn preset_catalogue() -> String {
+    let presets = Preset::ALL
+        .iter()
+        .map(|&preset| json!({ "value": preset, "label": preset.label() }));
+    write(&presets.collect::<Vec<_>>())
 }
 
 /// Every built-in sequence: an array of `{"name", "title", "lesson"}`.
@@ -24,4 +48,12 @@ pub fn scene_catalogue() -> String {
 #[wasm_bindgen]
 pub fn limits() -> String {
     write(&json!({ "minSide": MIN_SIDE, "maxSide": MAX_SIDE, "maxCurves": MAX_CURVES }))
+}
+
+fn word(preset: Preset) -> String {
+    value(&preset).as_str().unwrap_or_default().to_owned()
+}
+
+fn value<T: Serialize>(it: &T) -> Value {
+    serde_json::to_value(it).expect("the core's own values have text for keys")
 }

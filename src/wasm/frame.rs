@@ -1,8 +1,9 @@
 //! Frames in, pictures out.
 
+use wasm_bindgen::Clamped;
 use wasm_bindgen::prelude::wasm_bindgen;
-use wasm_bindgen::{Clamped, JsError};
 
+use crate::error::Error;
 use crate::grid::Grid;
 
 /// One frame, decoded.
@@ -12,13 +13,13 @@ pub struct Frame(pub(super) crate::Frame);
 #[wasm_bindgen]
 impl Frame {
     /// Reads the bytes of an image file; `name` is what errors call it.
-    pub fn decode(bytes: &[u8], name: &str) -> Result<Frame, JsError> {
+    pub fn decode(bytes: &[u8], name: &str) -> Result<Frame, Error> {
         Ok(Self(crate::Frame::decode(bytes, name)?))
     }
 
     /// A frame of four bytes a pixel, as canvas gives them.
     #[wasm_bindgen(js_name = fromRgba)]
-    pub fn from_rgba(width: usize, height: usize, bytes: &[u8]) -> Result<Frame, JsError> {
+    pub fn from_rgba(width: usize, height: usize, bytes: &[u8]) -> Result<Frame, Error> {
         Ok(Self(crate::Frame::from_rgba8(width, height, bytes)?))
     }
 

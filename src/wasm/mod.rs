@@ -5,13 +5,16 @@
 //! [`crate::Error`] as a JavaScript `Error` whose message is its sentence. Objects hold memory that
 //! JavaScript's collector frees when it likes: `free()` does it at once.
 
+mod baseline;
 mod catalogue;
+mod files;
 mod frame;
 mod panic;
 mod scene;
 mod solver;
 
-pub use catalogue::{limits, option_catalogue, scene_catalogue};
+pub use catalogue::{limits, option_catalogue, preset_catalogue, scene_catalogue};
+pub use files::SavedResult;
 pub use frame::{Frame, Picture};
 pub use panic::{panic_for_test, panic_message};
 pub use scene::Scene;
@@ -19,8 +22,27 @@ pub use solver::Solver;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use wasm_bindgen::JsValue;
 
 use crate::Error;
+
+/// An error's `name` tells whose fault it is: `SettingError` for a number or word that no frame could
+/// make right, `InputError` for what is wrong with the frames or does not go with them.
+impl From<Error> for JsValue {
+    fn from(error: Error) -> Self {
+        let thrown = js_sys::Error::new(&error.to_string());
+        thrown.set_name(match error {
+            Error::Focal(_)
+            | Error::Centre(..)
+            | Error::TooManyCurves(_)
+            | Error::CurveNotFinite { .. }
+            | Error::Option { .. }
+            | Error::Choice { .. } => "SettingError",
+            _ => "InputError",
+        });
+        thrown.into()
+    }
+}
 
 /// Reads JSON that came from JavaScript; `what` is what an error calls it.
 fn read<T: DeserializeOwned>(what: &'static str, json: &str) -> Result<T, Error> {
@@ -31,6 +53,6 @@ fn read<T: DeserializeOwned>(what: &'static str, json: &str) -> Result<T, Error>
 }
 
 /// Writes JSON for JavaScript. What is not a number becomes `null`.
-fn write<T: Serialize + ?Sized>(value: &T) -> String {
-    serde_json::to_string(value).expect("the core's own values have text for keys")
+fn write<T: Serialize + ?Sized>(it: &T) -> String {
+    serde_json::to_string(it).expect("the core's own values have text for keys")
 }

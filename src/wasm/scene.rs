@@ -1,54 +1,102 @@
 //! Sequences made by the project, with their truth.
 
-use wasm_bindgen::JsError;
+use std::cell::OnceCell;
+
+use js_sys::Array;
 use wasm_bindgen::prelude::wasm_bindgen;
 
+use super::baseline::baseline;
+use super::files::{data, listed};
 use super::{Frame, write};
+use crate::error::Error;
+use crate::file::motion::{MotionFile, RegionMotion};
+use crate::file::png;
+use crate::frames::FramePair;
+use crate::interpretation::Interpretation;
 use crate::scene::{self, Sequence};
 
 /// A built-in sequence, rendered.
 #[wasm_bindgen]
-pub struct Scene(pub(super) Sequence);
+pub struct Scene {
+    sequence: Sequence,
+    /// Horn–Schunck on its frames, once someone asks.
+    baseline: OnceCell<Interpretation>,
+}
 
 #[wasm_bindgen]
 impl Scene {
     /// Renders the sequence called `name` at a size of one's own.
     #[wasm_bindgen(constructor)]
-    pub fn new(name: &str, width: usize, height: usize) -> Result<Scene, JsError> {
-        Ok(Self(scene::render(name, width, height)?))
+    pub fn new(name: &str, width: usize, height: usize) -> Result<Scene, Error> {
+        Ok(Self {
+            sequence: scene::render(name, width, height)?,
+            baseline: OnceCell::new(),
+        })
     }
 
     /// Its name for people.
     #[wasm_bindgen(getter)]
     pub fn title(&self) -> String {
-        self.0.title.clone()
+        self.sequence.title.clone()
     }
 
     /// What it teaches.
     #[wasm_bindgen(getter)]
     pub fn lesson(&self) -> String {
-        self.0.lesson.clone()
+        self.sequence.lesson.clone()
     }
 
     /// The first frame.
     pub fn first(&self) -> Frame {
-        Frame(self.0.frames[0].clone())
+        Frame(self.sequence.frames[0].clone())
     }
 
     /// The second frame.
     pub fn second(&self) -> Frame {
-        Frame(self.0.frames[1].clone())
+        Frame(self.sequence.frames[1].clone())
     }
 
     /// Its camera, as a solver takes it.
     #[wasm_bindgen(getter, js_name = cameraJson)]
     pub fn camera_json(&self) -> String {
-        write(&self.0.truth.camera)
+        write(&self.sequence.truth.camera)
     }
 
     /// Curves to start from, as a solver takes them.
     #[wasm_bindgen(getter, js_name = shapesJson)]
     pub fn shapes_json(&self) -> String {
-        write(&self.0.curves)
+        write(&self.sequence.curves)
+    }
+
+    /// Frames and truth, as an array of files `{name, bytes}`.
+    #[wasm_bindgen(unchecked_return_type = "{ name: string; bytes: Uint8Array<ArrayBuffer> }[]")]
+    pub fn files(&self) -> Result<Array, Error> {
+        let Sequence { frames, truth, .. } = &self.sequence;
+        let motion = MotionFile {
+            regions: RegionMotion::list(&truth.motions),
+            status: "truth".to_owned(),
+            ..MotionFile::default()
+        };
+        let mut files = vec![
+            ("frame0.png", png::write_rgb(&frames[0].rgb)?),
+            ("frame1.png", png::write_rgb(&frames[1].rgb)?),
+        ];
+        files.extend(data(truth, &motion)?);
+        Ok(listed(files))
+    }
+}
+
+impl Scene {
+    pub(super) fn sequence(&self) -> &Sequence {
+        &self.sequence
+    }
+
+    pub(super) fn baseline(&self) -> Result<&Interpretation, Error> {
+        if self.baseline.get().is_none() {
+            let [first, second] = self.sequence.frames.clone();
+            let found = baseline(&FramePair::new(first, second)?)?;
+            let _ = self.baseline.set(found);
+        }
+        Ok(self.baseline.get().expect("it was just set"))
     }
 }

@@ -1,16 +1,22 @@
 //! The solver on two frames.
 
-use js_sys::{Float32Array, Uint8Array};
-use serde::Deserialize;
-use wasm_bindgen::JsError;
+use std::cell::OnceCell;
+
+use js_sys::{Array, Float32Array, Uint8Array};
+use serde::{Deserialize, Serialize};
+use serde_json::json;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use super::{Frame, read, write};
+use super::files::{data, listed};
+use super::{Frame, Scene, read, write};
 use crate::camera::Camera;
-use crate::curves::Shape;
+use crate::curves::{Contour, Shape};
 use crate::error::Error;
+use crate::file::motion::{MotionFile, RegionMotion, Seconds};
 use crate::frames::FramePair;
+use crate::interpretation::Interpretation;
 use crate::options::Options;
+use crate::score;
 
 #[wasm_bindgen]
 extern "C" {
@@ -27,9 +33,32 @@ struct CameraJson {
     cy: Option<f64>,
 }
 
+/// A curve as JavaScript reads it.
+#[derive(Serialize)]
+struct Outline<'a> {
+    label: u8,
+    closed: bool,
+    /// x, y, x, y, …
+    points: &'a [f32],
+}
+
+impl<'a> Outline<'a> {
+    fn of(contour: &'a Contour) -> Self {
+        Self {
+            label: contour.label,
+            closed: contour.closed,
+            points: contour.points.as_flattened(),
+        }
+    }
+}
+
 /// Finds regions, motions and depth of two frames.
 #[wasm_bindgen]
-pub struct Solver(pub(super) crate::Solver);
+pub struct Solver {
+    solver: crate::Solver,
+    /// What it has found, asked for by several views of the same pass.
+    found: OnceCell<Interpretation>,
+}
 
 #[wasm_bindgen]
 impl Solver {
@@ -43,94 +72,146 @@ impl Solver {
         camera: &str,
         shapes: &str,
         options: &str,
-    ) -> Result<Solver, JsError> {
+    ) -> Result<Solver, Error> {
         let pair = FramePair::new(first.0.clone(), second.0.clone())?;
         let camera = camera_of(&pair, camera)?;
         let shapes: Vec<Shape> = read("curves", shapes)?;
         let options = Options::from_json(options)?;
         let mut solver = crate::Solver::new(pair, camera, &shapes, options)?;
         solver.set_clock(|| milliseconds() / 1000.0);
-        Ok(Self(solver))
+        Ok(Self {
+            solver,
+            found: OnceCell::new(),
+        })
     }
 
     /// One pass, motion → depth → curves: `running`, `converged`, `exhausted` or `diverged`.
     pub fn step(&mut self) -> String {
-        self.0.step();
+        self.change().step();
         self.status()
     }
 
     /// Step 1 alone.
     #[wasm_bindgen(js_name = stepMotion)]
     pub fn step_motion(&mut self) {
-        self.0.step_motion();
+        self.change().step_motion();
     }
 
     /// Step 2 alone.
     #[wasm_bindgen(js_name = stepDepth)]
     pub fn step_depth(&mut self) {
-        self.0.step_depth();
+        self.change().step_depth();
     }
 
     /// Step 3 alone.
     #[wasm_bindgen(js_name = stepCurves)]
     pub fn step_curves(&mut self) {
-        self.0.step_curves();
+        self.change().step_curves();
     }
 
     /// Back to the start, with the curves and options as they were set last.
     pub fn reset(&mut self) {
-        self.0.reset();
+        self.change().reset();
     }
 
     /// Where it stands: `running`, `converged`, `exhausted` or `diverged`.
     #[wasm_bindgen(getter)]
     pub fn status(&self) -> String {
-        write(&self.0.status()).trim_matches('"').to_owned()
+        write(&self.solver.status()).trim_matches('"').to_owned()
     }
 
     /// Changes options while it runs; on an error they stay.
     #[wasm_bindgen(js_name = setOptions)]
-    pub fn set_options(&mut self, options: &str) -> Result<(), JsError> {
-        Ok(self.0.set_options(Options::from_json(options)?)?)
+    pub fn set_options(&mut self, options: &str) -> Result<(), Error> {
+        self.change().set_options(Options::from_json(options)?)
     }
 
     /// Changes the curves while it runs; on an error they stay.
     #[wasm_bindgen(js_name = setCurves)]
-    pub fn set_curves(&mut self, shapes: &str) -> Result<(), JsError> {
+    pub fn set_curves(&mut self, shapes: &str) -> Result<(), Error> {
         let shapes: Vec<Shape> = read("curves", shapes)?;
-        Ok(self.0.set_curves(&shapes)?)
+        self.change().set_curves(&shapes)
     }
 
     /// Status, energy, regions, weights, warnings and times, as JSON.
     pub fn report(&self) -> String {
-        write(&self.0.report())
+        write(&self.solver.report())
+    }
+
+    /// The curves as `[{"label", "closed", "points": [x, y, x, y, …]}]`, as JSON.
+    pub fn contours(&self) -> String {
+        let contours = self.solver.contours();
+        write(&contours.iter().map(Outline::of).collect::<Vec<_>>())
+    }
+
+    /// How far this is from the truth of `scene`, and Horn–Schunck from its image motion:
+    /// `{"found", "baseline"}`, as JSON.
+    pub fn scores(&self, scene: &Scene) -> Result<String, Error> {
+        let truth = &scene.sequence().truth;
+        let found = score::compare(self.found(), truth)?;
+        let baseline = score::compare_flow(&scene.baseline()?.flow, &truth.flow, None)?;
+        let (aee, aae) = baseline.unzip();
+        Ok(write(
+            &json!({ "found": found, "baseline": { "aee": aee, "aae": aae } }),
+        ))
+    }
+
+    /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`].
+    #[wasm_bindgen(unchecked_return_type = "{ name: string; bytes: Uint8Array<ArrayBuffer> }[]")]
+    pub fn files(&self, params: &str) -> Result<Array, Error> {
+        let _ = params;
+        let report = self.solver.report();
+        let motion = MotionFile {
+            regions: RegionMotion::list(&self.found().motions),
+            status: self.status(),
+            iterations: report.iterations,
+            energy: report.history,
+            seconds: Seconds {
+                total: report.seconds.total,
+                motion: report.seconds.steps.motion,
+                depth: report.seconds.steps.depth,
+                curves: report.seconds.steps.curves,
+            },
+        };
+        Ok(listed(data(self.found(), &motion)?))
     }
 
     /// 0 where the background is seen, k inside the k-th curve; row order.
     pub fn labels(&self) -> Uint8Array {
-        Uint8Array::from(self.0.interpretation().labels.data())
+        Uint8Array::from(self.found().labels.data())
     }
 
     /// Z in row order, in units of its own for each region.
     pub fn depth(&self) -> Float32Array {
-        Float32Array::from(self.0.interpretation().depth.data())
+        Float32Array::from(self.found().depth.data())
     }
 
     /// How far depth is observable, 0–1, in row order.
     pub fn confidence(&self) -> Float32Array {
-        Float32Array::from(self.0.interpretation().confidence.data())
+        Float32Array::from(self.found().confidence.data())
     }
 
     /// Image motion to the right in pixels per frame, in row order.
     #[wasm_bindgen(js_name = flowU)]
     pub fn flow_u(&self) -> Float32Array {
-        Float32Array::from(self.0.interpretation().flow.u.data())
+        Float32Array::from(self.found().flow.u.data())
     }
 
     /// Image motion downwards in pixels per frame, in row order.
     #[wasm_bindgen(js_name = flowV)]
     pub fn flow_v(&self) -> Float32Array {
-        Float32Array::from(self.0.interpretation().flow.v.data())
+        Float32Array::from(self.found().flow.v.data())
+    }
+}
+
+impl Solver {
+    fn found(&self) -> &Interpretation {
+        self.found.get_or_init(|| self.solver.interpretation())
+    }
+
+    fn change(&mut self) -> &mut crate::Solver {
+        self.found.take();
+        &mut self.solver
     }
 }
 

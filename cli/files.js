@@ -1,0 +1,61 @@
+// Files in and out, with errors that name them.
+
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+import { InputError } from "./errors.js";
+
+/** @type {Record<string, string>} */
+const REASONS = {
+  ENOENT: "there is no such file or folder",
+  EISDIR: "it is a folder",
+  ENOTDIR: "part of its path is not a folder",
+  EEXIST: "there is a file of that name",
+  EACCES: "access is denied",
+  EROFS: "the disk cannot be written to",
+  ENOSPC: "the disk is full",
+};
+
+/**
+ * @param {unknown} error
+ * @param {string} what
+ */
+function explained(error, what) {
+  const { code, message } = Object(error);
+  return new InputError(`${what}: ${REASONS[code] ?? message}`);
+}
+
+/** @param {string} path */
+export function read(path) {
+  try {
+    return readFileSync(path);
+  } catch (error) {
+    throw explained(error, `${path} cannot be read`);
+  }
+}
+
+/**
+ * Makes the folder, so that a long computation does not find out last that it cannot.
+ * @param {string} folder
+ */
+export function prepare(folder) {
+  try {
+    mkdirSync(folder, { recursive: true });
+  } catch (error) {
+    throw explained(error, `${folder} cannot be made`);
+  }
+}
+
+/**
+ * @param {string} folder
+ * @param {{ name: string, bytes: Uint8Array | string }[]} files
+ */
+export function write(folder, files) {
+  for (const { name, bytes } of files) {
+    try {
+      writeFileSync(join(folder, name), bytes);
+    } catch (error) {
+      throw explained(error, `${join(folder, name)} cannot be written`);
+    }
+  }
+}

@@ -1,0 +1,14 @@
+/**
+ * Relievo as a library for Node.
+ *
+ * ```js
+ * import { readFileSync } from "node:fs";
+ * import { Frame, Solver } from "relievo";
+ *
+ * const [first, second] = ["a.png", "b.png"].map((name) => Frame.decode(readFileSync(name), name));
+ * const solver = new Solver(first, second, '{"focal": 320}', "[]", "{}");
+ * while (solver.step() === "running");
+ * console.log(JSON.parse(solver.report()).regions);
+ * ```
+ */
+export * from "../pkg/relievo.js";

@@ -1,0 +1,140 @@
+// relievo FRAME1 FRAME2: the whole method on two frames, results into a folder.
+
+import { InputError, UsageError } from "./errors.js";
+import { prepare, read, write } from "./files.js";
+import { catalogue, given, known } from "./options.js";
+import { progress } from "./progress.js";
+import { numbers, parse } from "./words.js";
+
+/** @typedef {import("./options.js").Core} Core */
+
+const OWN = /** @type {const} */ ({
+  focal: { type: "string" },
+  centre: { type: "string" },
+  circle: { type: "string", multiple: true },
+  polygon: { type: "string", multiple: true },
+  preset: { type: "string" },
+  iterations: { type: "string" },
+  out: { type: "string" },
+});
+
+/**
+ * @param {Core} core
+ * @param {string[]} words
+ */
+export function solve(core, words) {
+  const { values, operands } = parse(words, { ...known(core), ...OWN });
+  const [first, second] = framesOf(operands);
+  const camera = cameraOf(values);
+  const shapes = shapesOf(words, values);
+  const options = given(core, { "max-passes": values["iterations"], ...values });
+  if (values["preset"] !== undefined) options["preset"] = values["preset"];
+
+  const frames = [first, second].map((path) => core.Frame.decode(read(path), path));
+  const solver = new core.Solver(
+    /** @type {import("../pkg/relievo.js").Frame} */ (frames[0]),
+    /** @type {import("../pkg/relievo.js").Frame} */ (frames[1]),
+    JSON.stringify(camera),
+    JSON.stringify(shapes),
+    JSON.stringify(options),
+  );
+  const out = values["out"] ?? "out";
+  prepare(out);
+  run(solver, mostPasses(core, options));
+  const files = solver.files("{}");
+  write(out, files);
+  summarise(JSON.parse(solver.report()), out, files);
+}
+
+/**
+ * @param {string[]} operands
+ * @returns {[string, string]}
+ */
+function framesOf(operands) {
+  const [first, second, third] = operands;
+  if (first === undefined || second === undefined || third !== undefined) {
+    const count = ["none was", "one was"][operands.length] ?? `${operands.length} were`;
+    throw new UsageError(`two frames are needed, ${count} given: relievo FRAME1 FRAME2 --focal F`);
+  }
+  return [first, second];
+}
+
+/** @param {Record<string, string>} values */
+function cameraOf({ focal, centre }) {
+  if (focal === undefined) {
+    throw new UsageError(
+      "the focal length is missing; give it in pixels with --focal F (about the frame's width when it is not known)",
+    );
+  }
+  const [f] = numbers("focal", "F", focal, (count) => count === 1);
+  if (centre === undefined) return { focal: f };
+  const [cx, cy] = numbers("centre", "X,Y", centre, (count) => count === 2);
+  return { focal: f, cx, cy };
+}
+
+/**
+ * Circles and polygons in the order in which they were given: the k-th becomes label k.
+ * @param {string[]} words
+ * @param {Record<string, string[]>} values
+ */
+function shapesOf(words, { circle = [], polygon = [] }) {
+  const circles = circle.map((text) => {
+    const [x, y, r] = numbers("circle", "X,Y,R", text, (count) => count === 3);
+    return { kind: "circle", x, y, r };
+  });
+  const polygons = polygon.map((text) => {
+    const form = "X1,Y1,X2,Y2,X3,Y3,… (three corners or more)";
+    const all = numbers("polygon", form, text, (count) => count >= 6 && count % 2 === 0);
+    const corners = Array.from({ length: all.length / 2 }, (_, i) => all.slice(2 * i, 2 * i + 2));
+    return { kind: "polygon", points: corners };
+  });
+  const order = words
+    .map((word) => /^--(circle|polygon)(=|$)/.exec(word)?.[1])
+    .filter((kind) => kind !== undefined);
+  return order.map((kind) => (kind === "circle" ? circles : polygons).shift());
+}
+
+/**
+ * @param {Core} core
+ * @param {Record<string, unknown>} options
+ */
+function mostPasses(core, options) {
+  const { defaults = {} } = catalogue(core).find(({ key }) => key === "max_passes") ?? {};
+  const preset = options["preset"] ?? JSON.parse(core.presetCatalogue())[0].value;
+  return Number(options["max_passes"] ?? defaults[String(preset)]);
+}
+
+/**
+ * @param {import("../pkg/relievo.js").Solver} solver
+ * @param {number} most
+ */
+function run(solver, most) {
+  const bar = progress(most);
+  let passes = 0;
+  bar.show(passes);
+  while (solver.step() === "running") bar.show((passes += 1));
+  bar.clear();
+}
+
+/**
+ * @param {any} report
+ * @param {string} out
+ * @param {{ name: string }[]} files
+ */
+function summarise({ status, iterations, regions, warnings, seconds }, out, files) {
+  const vector = (/** @type {number[]} */ v) => v.map((x) => x.toPrecision(3)).join(", ");
+  const end = status === "exhausted" ? "out of iterations" : status;
+  console.log(`${end} after ${iterations} passes, ${seconds.total.toFixed(1)} s`);
+  for (const { label, share, kind, translation, rotation } of regions) {
+    const name = label === 0 ? "background" : `curve ${label}`;
+    console.log(
+      `${name.padEnd(11)} ${(100 * share).toFixed(1).padStart(5)} %  ${kind.padEnd(11)}  ` +
+        `T (${vector(translation)})  ω (${vector(rotation)}) rad`,
+    );
+  }
+  for (const warning of warnings) console.log(`note: ${warning}`);
+  console.log(`${out}/: ${files.map(({ name }) => name).join(" ")}`);
+  if (status === "diverged") {
+    throw new InputError("the solver diverged, so the results mean nothing; try a larger --mu");
+  }
+}
