@@ -17,7 +17,7 @@ use crate::camera::Camera;
 /// Samples per pixel, each way.
 const FINE: usize = 3;
 /// Light rays per sample; all nine samples of a pixel use different ones.
-const LIGHT_RAYS: usize = 6;
+const LIGHT_RAYS: usize = 12;
 /// Depth of what no ray meets.
 const FAR: f64 = 1000.0;
 

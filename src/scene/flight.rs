@@ -17,18 +17,18 @@ pub(super) const ENTRY: Entry = Entry {
 
 pub(super) fn stage() -> Stage {
     let land = Texture {
-        pattern: Pattern::Strata,
-        colours: palette(0x3c5428, 0x8f8350, 0xd9bf8c),
-        scale: 0.6,
-        grain: 0.5,
+        pattern: Pattern::Mottle,
+        colours: palette(0x455c2c, 0x8c8a52, 0xd0bd8a),
+        scale: 0.9,
+        grain: 0.8,
         seed: 41,
     };
-    let ground = Pose::ground(0.5, 4.6);
+    let ground = Pose::ground(0.56, 5.2);
     let sky = srgb(0xc4d6e6);
     // The land moves past the camera: the opposite of the camera's own motion.
     Stage {
         parts: vec![Part {
-            solid: Solid::Terrain(Terrain::new(0.9, 1.8, 42)),
+            solid: Solid::Terrain(Terrain::new(1.0, 2.2, 7)),
             pose: ground,
             material: Material::matt(land),
             body: 0,
@@ -36,10 +36,10 @@ pub(super) fn stage() -> Stage {
         motions: vec![turn(
             DVec3::ZERO,
             DVec3::new(0.0004, -0.0006, 0.0003),
-            ground.direction(DVec3::new(0.003, 0.0, -0.012)),
+            ground.direction(DVec3::new(0.003, 0.0, -0.017)),
         )],
         light: Light::daylight(
-            ground.direction(DVec3::new(-1.0, -0.6, 0.2)),
+            ground.direction(DVec3::new(-1.0, -0.5, 0.35)),
             ground.direction(DVec3::NEG_Y),
             0.05,
         ),

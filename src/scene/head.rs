@@ -24,7 +24,7 @@ pub(super) fn stage() -> Stage {
     };
     let hair = Texture {
         pattern: Pattern::Strata,
-        colours: palette(0x23160f, 0x38251a, 0x54392a),
+        colours: palette(0x2a1b13, 0x37251b, 0x463024),
         scale: 0.2,
         grain: 0.25,
         seed: 32,
@@ -75,8 +75,8 @@ pub(super) fn stage() -> Stage {
             material: Material::matt(wall),
             body: 0,
         },
-        lump(0.0, 0.0, 0.0, [0.86, 1.12, 0.95], flesh),
-        lump(0.0, 0.5, -0.2, [0.62, 0.66, 0.6], flesh),
+        lump(0.0, 0.04, 0.0, [0.86, 1.14, 0.95], flesh),
+        lump(0.0, 0.86, -0.46, [0.32, 0.26, 0.24], flesh),
         lump(0.0, -0.28, 0.16, [0.95, 1.05, 0.98], Material::matt(hair)),
         lump(0.0, 0.16, -0.98, [0.13, 0.26, 0.2], flesh),
         lump(0.0, 0.3, -1.04, [0.17, 0.11, 0.14], flesh),

@@ -10,6 +10,7 @@ mod dice;
 mod figure;
 mod flight;
 mod head;
+mod lottery;
 mod noise;
 mod solid;
 mod squares;

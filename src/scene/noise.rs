@@ -49,7 +49,7 @@ pub fn gradient_noise(p: DVec3, seed: u32) -> f64 {
     let fz = [f.z, f.z - 1.0];
     let corner = |i: usize, j: usize, k: usize| {
         let h = mix(hx[i] ^ hy[j] ^ hz[k] ^ s);
-        let g = &GRADIENTS[(h & 15) as usize];
+        let g = &GRADIENTS[h as usize & 15];
         g[0] * fx[i] + g[1] * fy[j] + g[2] * fz[k]
     };
     let w = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
@@ -95,15 +95,17 @@ pub fn octaves(p: DVec3, scale: f64, gain: f64, footprint: f64, seed: u32) -> f6
     const MOST: u32 = 7;
     let (mut sum, mut power) = (0.0, 0.0);
     let (mut cell, mut strength) = (scale, 1.0);
+    let mut q = p / scale;
     for octave in 0..MOST {
         let weight = strength * (cell / footprint - 1.0).clamp(0.0, 1.0);
         power += strength * strength;
         if weight > 0.0 {
-            sum += weight * gradient_noise(p / cell, seed.wrapping_add(octave));
+            sum += weight * gradient_noise(q, seed.wrapping_add(octave));
         } else {
             break;
         }
         cell *= 0.5;
+        q *= 2.0;
         strength *= gain;
     }
     sum / power.sqrt()
@@ -117,10 +119,8 @@ pub fn split(v: f64) -> (u32, f64) {
     (cell as u32, v - f64::from(cell))
 }
 
-fn mix(mut h: u32) -> u32 {
-    h ^= h >> 15;
-    h = h.wrapping_mul(0x2c1b_3c6d);
-    h ^= h >> 12;
-    h = h.wrapping_mul(0x297a_2d39);
-    h ^ (h >> 15)
+fn mix(h: u32) -> u32 {
+    // The top bits of a product depend on all bits below them; one round is plenty for sixteen
+    // directions.
+    (h ^ (h >> 15)).wrapping_mul(0x2c1b_3c6d) >> 28
 }
