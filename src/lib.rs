@@ -16,6 +16,7 @@ pub mod options;
 pub mod scene;
 pub mod score;
 pub mod solver;
+pub mod view;
 pub mod warp;
 
 pub use camera::{Camera, RigidMotion};

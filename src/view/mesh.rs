@@ -1,0 +1,246 @@
+//! The depth map as a surface of triangles.
+//!
+//! Vertices lie on the rays of their pixels at the depth found, x to the right, y up, z towards the
+//! viewer, moved and scaled into a box of about −1 to 1 in x or y. The surface is cut along the borders
+//! of regions, half-way between pixels, without skirts, and where depth tears. A region whose depth is
+//! nowhere observable is flat.
+
+use glam::{Vec2, Vec3};
+
+use super::ViewParams;
+use super::span::{OBSERVABLE, Span, percentile};
+use crate::frames::Frame;
+use crate::interpretation::Interpretation;
+
+/// Vertices aimed at when the step is chosen automatically.
+const VERTICES: usize = 90_000;
+/// A triangle steeper than this (depth over width, as drawn) is a tear, not a surface.
+const STEEPEST: f32 = 9.0;
+/// The depth drawn, as a share of the width, between which it is left as it is.
+const SHALLOWEST: f32 = 0.35;
+const DEEPEST: f32 = 1.2;
+/// Shallow reliefs are deepened by no more than this: past it, one would look at noise.
+const MOST: f32 = 6.0;
+/// Share of a region's pixels that must have observable depth for it to have a relief.
+const LEAST_KNOWN: f32 = 0.02;
+
+/// A surface of triangles; flat lists as graphics cards want them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// x, y, z of each vertex.
+    pub positions: Vec<f32>,
+    /// Unit normal of each vertex, towards the viewer's side.
+    pub normals: Vec<f32>,
+    /// Place of each vertex in the frame, 0–1 from the lower left corner.
+    pub uvs: Vec<f32>,
+    /// sRGB of each vertex, greyed where depth is not known.
+    pub colours: Vec<u8>,
+    /// Region of each vertex.
+    pub labels: Vec<u8>,
+    /// Whether depth was observable in the vertex's region (1) or is drawn flat (0).
+    pub known: Vec<u8>,
+    /// Three vertices for each triangle, counter-clockwise seen from the front.
+    pub indices: Vec<u32>,
+}
+
+/// The surface of an interpretation, a vertex every [`ViewParams::step`] pixels, its depth multiplied
+/// by [`ViewParams::relief`].
+pub fn mesh(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Mesh {
+    let (width, height) = (frame.width(), frame.height());
+    let automatic = ((width * height) as f32 / VERTICES as f32).sqrt().ceil() as usize;
+    let step = params
+        .step
+        .unwrap_or(automatic)
+        .clamp(1, width.min(height) - 1);
+    let regions: Vec<Shown> = (0..=u8::MAX)
+        .take(found.regions().max(1))
+        .map(|k| Shown::of(found, k))
+        .collect();
+    let mut builder = Builder {
+        frame,
+        found,
+        regions,
+        mesh: Mesh::default(),
+    };
+    // The last column and row are always there, so that the surface reaches the frame's border.
+    let along = |side: usize| -> Vec<usize> {
+        let mut places: Vec<usize> = (0..side).step_by(step).collect();
+        if places.last() != Some(&(side - 1)) {
+            places.push(side - 1);
+        }
+        places
+    };
+    let (columns, rows) = (along(width), along(height));
+    let corner: Vec<u32> = rows
+        .iter()
+        .flat_map(|&y| columns.iter().map(move |&x| (x, y)))
+        .map(|(x, y)| builder.vertex((x, y), Vec2::new(x as f32, y as f32)))
+        .collect();
+    for (j, y) in rows.windows(2).enumerate() {
+        for (i, x) in columns.windows(2).enumerate() {
+            let at = j * columns.len() + i;
+            let below = at + columns.len();
+            // Counter-clockwise as seen: down the left side, up the right one.
+            let places = [(x[0], y[0]), (x[0], y[1]), (x[1], y[1]), (x[1], y[0])];
+            let vertices = [corner[at], corner[below], corner[below + 1], corner[at + 1]];
+            builder.cell(places, vertices);
+        }
+    }
+    builder.finish(params)
+}
+
+/// How a region is drawn.
+struct Shown {
+    known: bool,
+    span: Span,
+}
+
+impl Shown {
+    fn of(found: &Interpretation, label: u8) -> Self {
+        let inside = |i: usize| found.labels.data()[i] == label;
+        let pixels = (0..found.labels.len()).filter(|&i| inside(i)).count();
+        let known = (0..found.labels.len())
+            .filter(|&i| inside(i) && found.confidence.data()[i] >= OBSERVABLE)
+            .count();
+        let span = Span::of(found, true, inside).unwrap_or(Span {
+            far: 1.0,
+            near: 1.0,
+        });
+        Self {
+            known: known as f32 >= LEAST_KNOWN * pixels as f32 && known > 0,
+            span,
+        }
+    }
+
+    /// Depth as drawn: within the span and a little beyond; the middle of it where nothing is known.
+    fn depth(&self, depth: f32) -> f32 {
+        let middle = (self.span.near + self.span.far) / 2.0;
+        let beyond = 0.3 * (self.span.near - self.span.far);
+        let rho = 1.0 / depth;
+        if !self.known || !rho.is_finite() {
+            return 1.0 / middle;
+        }
+        1.0 / rho.clamp(
+            (self.span.far - beyond).max(0.2 * self.span.far),
+            self.span.near + beyond,
+        )
+    }
+}
+
+struct Builder<'a> {
+    frame: &'a Frame,
+    found: &'a Interpretation,
+    regions: Vec<Shown>,
+    mesh: Mesh,
+}
+
+impl Builder<'_> {
+    /// A vertex at image place `at` with the depth, colour and region of pixel `of`.
+    fn vertex(&mut self, of: (usize, usize), at: Vec2) -> u32 {
+        let label = self.found.labels[of];
+        let region = &self.regions[usize::from(label).min(self.regions.len() - 1)];
+        let z = region.depth(self.found.depth[of]);
+        let ray = self.found.camera.ray(at.x.into(), at.y.into()).as_vec3();
+        let m = &mut self.mesh;
+        m.positions.extend([ray.x * z, -ray.y * z, -z]);
+        let (w, h) = (self.frame.width() as f32, self.frame.height() as f32);
+        m.uvs.extend([(at.x + 0.5) / w, 1.0 - (at.y + 0.5) / h]);
+        let rgb = self.frame.rgb[of];
+        m.colours.extend(if region.known {
+            rgb
+        } else {
+            super::mix(rgb, [110; 3], 0.5)
+        });
+        m.labels.push(label);
+        m.known.push(u8::from(region.known));
+        (m.labels.len() - 1) as u32
+    }
+
+    /// The surface between four corners: one quadrangle, or the share of each region in it, cut
+    /// half-way along each side that leaves it.
+    fn cell(&mut self, places: [(usize, usize); 4], vertices: [u32; 4]) {
+        let labels = places.map(|p| self.found.labels[p]);
+        for (first, &label) in labels.iter().enumerate() {
+            if labels[..first].contains(&label) {
+                continue;
+            }
+            let mut outline = Vec::with_capacity(6);
+            for i in 0..4 {
+                let next = (i + 1) % 4;
+                let (here, there) = (labels[i] == label, labels[next] == label);
+                if here {
+                    outline.push(vertices[i]);
+                }
+                if here != there {
+                    let of = if here { places[i] } else { places[next] };
+                    let middle = |a: usize, b: usize| (a + b) as f32 / 2.0;
+                    let at = Vec2::new(
+                        middle(places[i].0, places[next].0),
+                        middle(places[i].1, places[next].1),
+                    );
+                    outline.push(self.vertex(of, at));
+                }
+            }
+            for i in 2..outline.len() {
+                self.mesh
+                    .indices
+                    .extend([outline[0], outline[i - 1], outline[i]]);
+            }
+        }
+    }
+
+    fn finish(mut self, params: &ViewParams) -> Mesh {
+        let m = &mut self.mesh;
+        let mut points: Vec<Vec3> = m.positions.chunks_exact(3).map(Vec3::from_slice).collect();
+        let mut depths: Vec<f32> = points.iter().map(|p| -p.z).collect();
+        let at = |depths: &mut Vec<f32>, q| percentile(depths, q).unwrap_or(1.0);
+        let (near, middle, far) = (
+            at(&mut depths, 0.02),
+            at(&mut depths, 0.5),
+            at(&mut depths, 0.98),
+        );
+        // The frame's size at the middle depth; the box is half of the longer side.
+        let side = self.frame.width().max(self.frame.height()) as f32;
+        let across = side * middle / self.found.camera.focal as f32;
+        let ratio = (far - near) / across;
+        let automatic = if ratio < SHALLOWEST {
+            (SHALLOWEST / ratio.max(1e-6)).min(MOST)
+        } else {
+            (DEEPEST / ratio).min(1.0)
+        };
+        let deepen = params.relief.map_or(automatic, |r| r as f32);
+        let origin = Vec3::new(0.0, 0.0, -(near + far) / 2.0);
+        for p in &mut points {
+            *p = (*p - origin) * Vec3::new(1.0, 1.0, deepen) * 2.0 / across;
+        }
+        let steep = |t: &[u32]| {
+            let [a, b, c] = [t[0], t[1], t[2]].map(|i| points[i as usize]);
+            [(a, b), (b, c), (c, a)].iter().any(|(p, q)| {
+                let across = (*p - *q).truncate().length();
+                (p.z - q.z).abs() > STEEPEST * across.max(0.5 * across + 1e-4)
+            })
+        };
+        m.indices = m
+            .indices
+            .chunks_exact(3)
+            .filter(|t| !steep(t))
+            .flatten()
+            .copied()
+            .collect();
+        let mut normals = vec![Vec3::ZERO; points.len()];
+        for t in m.indices.chunks_exact(3) {
+            let [a, b, c] = [t[0], t[1], t[2]].map(|i| i as usize);
+            // Twice the area long, so that large triangles count for more.
+            let normal = (points[b] - points[a]).cross(points[c] - points[a]);
+            for i in [a, b, c] {
+                normals[i] += normal;
+            }
+        }
+        m.positions = points.iter().flat_map(|p| p.to_array()).collect();
+        m.normals = normals
+            .iter()
+            .flat_map(|n| n.try_normalize().unwrap_or(Vec3::Z).to_array())
+            .collect();
+        self.mesh
+    }
+}
