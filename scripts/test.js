@@ -33,7 +33,7 @@ const STAGES = [
 ];
 
 async function rustInNode() {
-  return run("wasm-pack", ["test", "--node", "--mode", "no-install", "--", "--locked", "--tests"]);
+  return run("wasm-pack", ["test", "--node", "--mode", "no-install", "--", "--locked"]);
 }
 
 async function types() {

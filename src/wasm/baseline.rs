@@ -1,5 +1,8 @@
 //! Horn–Schunck beside the method.
 
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use super::{Frame, Picture, draw};
 use crate::camera::{Camera, RigidMotion};
 use crate::error::Error;
 use crate::frames::FramePair;
@@ -19,4 +22,28 @@ pub(super) fn baseline(pair: &FramePair) -> Result<Interpretation, Error> {
         occluded: Grid::new(width, height, 0),
         motions: vec![RigidMotion::default()],
     })
+}
+
+/// What Horn–Schunck makes of two frames.
+#[wasm_bindgen]
+pub struct Baseline {
+    pair: FramePair,
+    found: Interpretation,
+}
+
+/// Runs Horn–Schunck on two frames.
+#[wasm_bindgen(js_name = hornSchunck)]
+pub fn horn_schunck(first: &Frame, second: &Frame) -> Result<Baseline, Error> {
+    let pair = FramePair::new(first.0.clone(), second.0.clone())?;
+    let found = baseline(&pair)?;
+    Ok(Baseline { pair, found })
+}
+
+#[wasm_bindgen]
+impl Baseline {
+    /// A picture of what it found, which is motion only: `flow` or `arrows`; see `viewCatalogue()`.
+    pub fn view(&self, kind: &str, params: &str) -> Result<Picture, Error> {
+        let frames = [self.pair.first(), self.pair.second()];
+        draw(kind, frames, &self.found, &[], params)
+    }
 }

@@ -8,6 +8,7 @@ use super::write;
 use crate::frames::{MAX_SIDE, MIN_SIDE};
 use crate::options::{self, MAX_CURVES, Options, Preset};
 use crate::scene;
+use crate::view::{self, GLASSES, LABEL_COLOURS, PALETTES, ViewParams};
 
 /// Every option, described: an array in the order in which a form should show them. Each carries its
 /// `defaults`, by preset.
@@ -42,6 +43,21 @@ pub fn preset_catalogue() -> String {
 #[wasm_bindgen(js_name = sceneCatalogue)]
 pub fn scene_catalogue() -> String {
     write(scene::catalogue())
+}
+
+/// All about views: `{"views": [{"kind", "title", "meaning"}], "palettes": [{"value", "label"}],
+/// "glasses": [{"value", "label"}], "colours": ["#rrggbb" of label 0, of label 1, …], "defaults": {…}}`,
+/// the last being the parameters that views take and their defaults.
+#[wasm_bindgen(js_name = viewCatalogue)]
+pub fn view_catalogue() -> String {
+    let colours = LABEL_COLOURS.map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"));
+    write(&json!({
+        "views": view::catalogue(),
+        "palettes": PALETTES,
+        "glasses": GLASSES,
+        "colours": colours,
+        "defaults": ViewParams::default(),
+    }))
 }
 
 /// `{"minSide", "maxSide"}` of a frame in pixels and `{"maxCurves"}`.

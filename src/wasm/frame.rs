@@ -5,6 +5,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::error::Error;
 use crate::grid::Grid;
+use crate::view;
 
 /// One frame, decoded.
 #[wasm_bindgen]
@@ -43,7 +44,7 @@ impl Frame {
 
 /// Something to look at.
 #[wasm_bindgen]
-pub struct Picture(Grid<[u8; 4]>);
+pub struct Picture(pub(super) view::Picture);
 
 #[wasm_bindgen]
 impl Picture {

@@ -9,13 +9,16 @@ mod baseline;
 mod catalogue;
 mod files;
 mod frame;
+mod mesh;
 mod panic;
 mod scene;
 mod solver;
 
-pub use catalogue::{limits, option_catalogue, preset_catalogue, scene_catalogue};
+pub use baseline::{Baseline, horn_schunck};
+pub use catalogue::{limits, option_catalogue, preset_catalogue, scene_catalogue, view_catalogue};
 pub use files::SavedResult;
 pub use frame::{Frame, Picture};
+pub use mesh::Mesh;
 pub use panic::{panic_for_test, panic_message};
 pub use scene::Scene;
 pub use solver::Solver;
@@ -25,6 +28,9 @@ use serde::de::DeserializeOwned;
 use wasm_bindgen::JsValue;
 
 use crate::Error;
+use crate::curves::Contour;
+use crate::interpretation::Interpretation;
+use crate::view::{self, ViewParams};
 
 /// An error's `name` tells whose fault it is: `SettingError` for a number or word that no frame could
 /// make right, `InputError` for what is wrong with the frames or does not go with them.
@@ -55,4 +61,17 @@ fn read<T: DeserializeOwned>(what: &'static str, json: &str) -> Result<T, Error>
 /// Writes JSON for JavaScript. What is not a number becomes `null`.
 fn write<T: Serialize + ?Sized>(it: &T) -> String {
     serde_json::to_string(it).expect("the core's own values have text for keys")
+}
+
+/// The view `kind` of `found` over the frame that it belongs on.
+fn draw(
+    kind: &str,
+    frames: [&crate::Frame; 2],
+    found: &Interpretation,
+    contours: &[Contour],
+    params: &str,
+) -> Result<Picture, Error> {
+    let params = ViewParams::from_json(params)?;
+    let frame = frames[usize::from(kind == "second")];
+    view::draw(kind, frame, found, contours, &params).map(Picture)
 }

@@ -7,7 +7,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::baseline::baseline;
 use super::files::{data, listed};
-use super::{Frame, write};
+use super::{Frame, Picture, draw, write};
 use crate::error::Error;
 use crate::file::motion::{MotionFile, RegionMotion};
 use crate::file::png;
@@ -66,6 +66,12 @@ impl Scene {
     #[wasm_bindgen(getter, js_name = shapesJson)]
     pub fn shapes_json(&self) -> String {
         write(&self.sequence.curves)
+    }
+
+    /// A picture of the truth: one of `viewCatalogue()`, with parameters of its own as JSON.
+    pub fn view(&self, kind: &str, params: &str) -> Result<Picture, Error> {
+        let Sequence { frames, truth, .. } = &self.sequence;
+        draw(kind, [&frames[0], &frames[1]], truth, &[], params)
     }
 
     /// Frames and truth, as an array of files `{name, bytes}`.

@@ -8,15 +8,28 @@ use serde_json::json;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::files::{data, listed};
-use super::{Frame, Scene, read, write};
+use super::{Frame, Mesh, Picture, Scene, draw, read, write};
 use crate::camera::Camera;
 use crate::curves::{Contour, Shape};
 use crate::error::Error;
 use crate::file::motion::{MotionFile, RegionMotion, Seconds};
+use crate::file::png;
 use crate::frames::FramePair;
 use crate::interpretation::Interpretation;
 use crate::options::Options;
 use crate::score;
+use crate::solver::Report;
+use crate::view::{self, ViewParams};
+
+/// Views that are saved with the results, and under which names.
+const PICTURES: [(&str, &str); 6] = [
+    ("segmentation", "segmentation.png"),
+    ("depth", "depth.png"),
+    ("relief", "relief.png"),
+    ("flow", "flow.png"),
+    ("anaglyph", "anaglyph.png"),
+    ("confidence", "confidence.png"),
+];
 
 #[wasm_bindgen]
 extern "C" {
@@ -144,6 +157,25 @@ impl Solver {
         write(&contours.iter().map(Outline::of).collect::<Vec<_>>())
     }
 
+    /// A picture of what is found so far: one of `viewCatalogue()`, with parameters of its own as JSON.
+    pub fn view(&self, kind: &str, params: &str) -> Result<Picture, Error> {
+        let pair = self.solver.pair();
+        let contours = self.solver.contours();
+        let frames = [pair.first(), pair.second()];
+        draw(kind, frames, self.found(), &contours, params)
+    }
+
+    /// The relief, with the parameters of a view as JSON.
+    pub fn mesh(&self, params: &str) -> Result<Mesh, Error> {
+        let params = ViewParams::from_json(params)?;
+        let found = self.found().scaled(&params.scales);
+        Ok(Mesh(view::mesh(
+            self.solver.pair().first(),
+            &found,
+            &params,
+        )))
+    }
+
     /// How far this is from the truth of `scene`, and Horn–Schunck from its image motion:
     /// `{"found", "baseline"}`, as JSON.
     pub fn scores(&self, scene: &Scene) -> Result<String, Error> {
@@ -159,21 +191,13 @@ impl Solver {
     /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`].
     #[wasm_bindgen(unchecked_return_type = "{ name: string; bytes: Uint8Array<ArrayBuffer> }[]")]
     pub fn files(&self, params: &str) -> Result<Array, Error> {
-        let _ = params;
-        let report = self.solver.report();
-        let motion = MotionFile {
-            regions: RegionMotion::list(&self.found().motions),
-            status: self.status(),
-            iterations: report.iterations,
-            energy: report.history,
-            seconds: Seconds {
-                total: report.seconds.total,
-                motion: report.seconds.steps.motion,
-                depth: report.seconds.steps.depth,
-                curves: report.seconds.steps.curves,
-            },
-        };
-        Ok(listed(data(self.found(), &motion)?))
+        let scales = ViewParams::from_json(params)?.scales;
+        let found = self.found().scaled(&scales);
+        let mut files = data(&found, &self.motion_file(&found))?;
+        for (kind, name) in PICTURES {
+            files.push((name, png::write_rgba(&self.view(kind, params)?.0)?));
+        }
+        Ok(listed(files))
     }
 
     /// 0 where the background is seen, k inside the k-th curve; row order.
@@ -207,6 +231,27 @@ impl Solver {
 impl Solver {
     fn found(&self) -> &Interpretation {
         self.found.get_or_init(|| self.solver.interpretation())
+    }
+
+    fn motion_file(&self, found: &Interpretation) -> MotionFile {
+        let Report {
+            iterations,
+            history,
+            seconds,
+            ..
+        } = self.solver.report();
+        MotionFile {
+            regions: RegionMotion::list(&found.motions),
+            status: self.status(),
+            iterations,
+            energy: history,
+            seconds: Seconds {
+                total: seconds.total,
+                motion: seconds.steps.motion,
+                depth: seconds.steps.depth,
+                curves: seconds.steps.curves,
+            },
+        }
     }
 
     fn change(&mut self) -> &mut crate::Solver {

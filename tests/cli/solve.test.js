@@ -35,7 +35,7 @@ describe("a solve", () => {
   test("writes data and pictures", () => {
     const names = readdirSync(out);
     const data = ["labels.png", "depth.pfm", "flow.flo", "motion.json", "occlusion.png"];
-    const pictures = /** @type {string[]} */ ([]);
+    const pictures = ["segmentation", "depth", "relief", "flow", "anaglyph", "confidence"];
     for (const name of [...data, ...pictures.map((picture) => `${picture}.png`)]) {
       assert.ok(names.includes(name), `${name} is missing`);
     }
