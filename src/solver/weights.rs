@@ -13,9 +13,9 @@ use crate::frames::Derivatives;
 use crate::options::Options;
 
 /// μ/σ²: what the smoothness of depth counts.
-const MU_OVER_VARIANCE: f64 = 0.1;
+const MU_OVER_VARIANCE: f64 = 50.0;
 /// λ/σ²: what a pixel of curve counts.
-const LAMBDA_OVER_VARIANCE: f64 = 5.0;
+const LAMBDA_OVER_VARIANCE: f64 = 1.0;
 /// Least σ in grey levels: frames of 8 bits are not known better.
 const LEAST_SIGMA: f64 = 0.1;
 
