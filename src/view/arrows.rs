@@ -24,6 +24,7 @@ pub fn arrows(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Pic
     let gain = LONGEST * spacing * m / full_speed(found, params);
     let longest = 1.6 * spacing * m;
     let mut of_label: Vec<Vec<Segment>> = vec![Vec::new(); 256];
+    let mut dots: Vec<Segment> = Vec::new();
     // As many as fit, the rest shared by both margins.
     let places = |side: usize| -> Vec<usize> {
         let count = ((side as f32 / spacing).floor() as usize).max(1);
@@ -39,6 +40,10 @@ pub fn arrows(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Pic
             }
             let from = [x as f32, y as f32].map(|c| (c + 0.5) * m - 0.5);
             let length = u.hypot(v) * gain;
+            if length < LEAST {
+                dots.push([from, from]);
+                continue;
+            }
             let shorten = (longest / length).min(1.0);
             let vector = [u * gain * shorten, v * gain * shorten];
             let lines = &mut of_label[usize::from(found.labels[(x, y)])];
@@ -47,6 +52,8 @@ pub fn arrows(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Pic
     }
     let radius = (spacing * m / 26.0).clamp(0.55, 3.0);
     let mut picture = dimmed(frame, params.dim, params.magnify);
+    let resting = distances(picture.width(), picture.height(), dots, radius + 2.0);
+    paint(&mut picture, &resting, 0.8 * radius, [245, 245, 245], 0.45);
     let drawn: Vec<(u8, Grid<f32>)> = of_label
         .into_iter()
         .enumerate()
@@ -69,11 +76,8 @@ pub fn arrows(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Pic
     picture
 }
 
-/// Shaft and two barbs, or a dot.
+/// Shaft and two barbs.
 fn arrow(from: [f32; 2], vector: [f32; 2], length: f32, spacing: f32) -> Vec<Segment> {
-    if length < LEAST {
-        return vec![[from, from]];
-    }
     // Centred on its pixel, so that neighbouring arrows keep their distance.
     let tail = [from[0] - vector[0] / 2.0, from[1] - vector[1] / 2.0];
     let tip = [from[0] + vector[0] / 2.0, from[1] + vector[1] / 2.0];

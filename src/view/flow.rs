@@ -45,7 +45,7 @@ pub fn wheel() -> Vec<[u8; 3]> {
             // Yellow is a light colour and blue a dark one; lightness follows them a little, so that
             // both are vivid.
             let lightness = 0.70 + 0.14 * (angle - 85.0).to_radians().cos();
-            from_oklch(lightness, 0.4, angle + 25.0)
+            from_oklch(lightness, 0.21, angle + 25.0)
         })
         .collect()
 }

@@ -3,7 +3,7 @@
 //! Vertices lie on the rays of their pixels at the depth found, x to the right, y up, z towards the
 //! viewer, moved and scaled into a box of about −1 to 1 in x or y. The surface is cut along the borders
 //! of regions, half-way between pixels, without skirts, and where depth tears. A region whose depth is
-//! nowhere observable is flat.
+//! nowhere observable is flat, and if it is the background, behind all others.
 
 use glam::{Vec2, Vec3};
 
@@ -14,11 +14,13 @@ use crate::interpretation::Interpretation;
 
 /// Vertices aimed at when the step is chosen automatically.
 const VERTICES: usize = 90_000;
-/// A triangle steeper than this (depth over width, as drawn) is a tear, not a surface.
-const STEEPEST: f32 = 9.0;
+/// A triangle is a tear, not a surface, when it is steeper than this (depth over width, as drawn) and
+/// spans more than this depth in the box: the wall beside a nose stays, the one behind a hill goes.
+const STEEPEST: f32 = 4.0;
+const HIGHEST: f32 = 0.15;
 /// The depth drawn, as a share of the width, between which it is left as it is.
 const SHALLOWEST: f32 = 0.35;
-const DEEPEST: f32 = 1.2;
+const DEEPEST: f32 = 0.8;
 /// Shallow reliefs are deepened by no more than this: past it, one would look at noise.
 const MOST: f32 = 6.0;
 /// Share of a region's pixels that must have observable depth for it to have a relief.
@@ -56,6 +58,7 @@ pub fn mesh(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Mesh 
         .take(found.regions().max(1))
         .map(|k| Shown::of(found, k))
         .collect();
+    let regions = Shown::background_behind(regions);
     let mut builder = Builder {
         frame,
         found,
@@ -110,6 +113,20 @@ impl Shown {
             known: known as f32 >= LEAST_KNOWN * pixels as f32 && known > 0,
             span,
         }
+    }
+
+    /// A background of unknown depth is put as far as the farthest that is known: it is hidden by all.
+    fn background_behind(mut regions: Vec<Self>) -> Vec<Self> {
+        let known = regions.iter().filter(|r| r.known).map(|r| r.span.far);
+        let farthest = known.fold(f32::INFINITY, f32::min);
+        let background = &mut regions[0];
+        if !background.known && farthest.is_finite() {
+            background.span = Span {
+                far: farthest,
+                near: farthest,
+            };
+        }
+        regions
     }
 
     /// Depth as drawn: within the span and a little beyond; the middle of it where nothing is known.
@@ -217,7 +234,7 @@ impl Builder<'_> {
             let [a, b, c] = [t[0], t[1], t[2]].map(|i| points[i as usize]);
             [(a, b), (b, c), (c, a)].iter().any(|(p, q)| {
                 let across = (*p - *q).truncate().length();
-                (p.z - q.z).abs() > STEEPEST * across.max(0.5 * across + 1e-4)
+                (p.z - q.z).abs() > HIGHEST.max(STEEPEST * across)
             })
         };
         m.indices = m

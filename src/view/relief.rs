@@ -29,6 +29,8 @@ const BEHIND: [Vec3; 2] = [
 ];
 /// Share of the picture that the surface fills.
 const FILLED: f32 = 0.94;
+/// Vertices aimed at when the step is chosen: more than to turn in real time, for finer outlines.
+const VERTICES: usize = 400_000;
 /// Pictures up to this many pixels are drawn at twice the size and averaged.
 const SMOOTHED: usize = 2_000_000;
 
@@ -37,7 +39,12 @@ const SMOOTHED: usize = 2_000_000;
 pub fn relief(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Picture {
     let (width, height) = (frame.width(), frame.height());
     let fine = if width * height <= SMOOTHED { 2 } else { 1 };
-    let mesh = mesh(frame, found, params);
+    let automatic = ((width * height) as f32 / VERTICES as f32).sqrt().ceil() as usize;
+    let finer = ViewParams {
+        step: params.step.or(Some(automatic)),
+        ..params.clone()
+    };
+    let mesh = mesh(frame, found, &finer);
     let turn = Mat3::from_rotation_x((params.tilt as f32).to_radians())
         * Mat3::from_rotation_y((params.turn as f32).to_radians());
     let vectors = |flat: &[f32]| -> Vec<Vec3> {
@@ -92,5 +99,5 @@ fn shade(point: Vec3, normal: Vec3, known: bool) -> Vec3 {
     let lamp =
         normal.dot(to_lamp.normalize()).max(0.0) / (1.0 + FALL_OFF * to_lamp.length_squared());
     let sky = 0.06 + 0.05 * normal.y;
-    (if known { PLASTER } else { UNKNOWN }) * (sky + 1.75 * lamp)
+    (if known { PLASTER } else { UNKNOWN }) * (sky + 1.5 * lamp)
 }
