@@ -1,3 +1,4 @@
+/// <reference lib="esnext.disposable" />
 /**
  * Relievo as a library for Node.
  *

@@ -1,0 +1,183 @@
+// The WebAssembly as a library: what crosses the border, and what happens when something is wrong.
+
+import assert from "node:assert/strict";
+import { beforeEach, describe, test } from "node:test";
+import { execFileSync } from "node:child_process";
+import { fileURLToPath } from "node:url";
+
+import {
+  Frame,
+  hornSchunck,
+  limits,
+  optionCatalogue,
+  presetCatalogue,
+  Scene,
+  Solver,
+  viewCatalogue,
+} from "../../cli/index.js";
+
+const [WIDTH, HEIGHT] = [80, 60];
+const scene = new Scene("squares", WIDTH, HEIGHT);
+
+const solver = (options = "{}", shapes = scene.shapesJson, camera = scene.cameraJson) =>
+  new Solver(scene.first(), scene.second(), camera, shapes, options);
+
+describe("a solver", () => {
+  /** @type {Solver} */
+  let found;
+  beforeEach(() => {
+    found = solver();
+    found.step();
+  });
+
+  test("gives arrays with an entry for each pixel", () => {
+    const arrays = [
+      found.labels(),
+      found.depth(),
+      found.confidence(),
+      found.flowU(),
+      found.flowV(),
+    ];
+    for (const array of arrays) assert.equal(array.length, WIDTH * HEIGHT);
+    const regions = JSON.parse(found.report()).regions;
+    const counted = regions.map(
+      (/** @type {{ label: number }} */ { label }) =>
+        found.labels().filter((l) => l === label).length,
+    );
+    assert.deepEqual(
+      regions.map((/** @type {{ pixels: number }} */ region) => region.pixels),
+      counted,
+    );
+  });
+
+  test("shows what it found after a step, not before it", () => {
+    const before = found.depth();
+    found.stepDepth();
+    assert.notDeepEqual(found.depth(), before);
+  });
+
+  test("draws every view of the catalogue", () => {
+    const { views, defaults } = JSON.parse(viewCatalogue());
+    assert.ok(views.length >= 8);
+    for (const { kind } of views) {
+      for (const params of ["{}", JSON.stringify(defaults)]) {
+        const picture = found.view(kind, params);
+        const { width, height } = picture;
+        assert.ok(width >= WIDTH && height >= HEIGHT, kind);
+        assert.equal(picture.rgba().length, 4 * width * height, kind);
+      }
+      scene.view(kind, "{}").free();
+    }
+    assert.ok(hornSchunck(scene.first(), scene.second()).view("flow", "{}").width >= WIDTH);
+  });
+
+  test("gives a relief whose triangles stand on its vertices", () => {
+    const mesh = found.mesh("{}");
+    const vertices = mesh.positions.length / 3;
+    assert.ok(mesh.indices.length > 0 && mesh.indices.length % 3 === 0);
+    assert.ok(mesh.indices.every((index) => index < vertices));
+    assert.deepEqual(
+      [mesh.uvs.length, mesh.normals.length, mesh.colours.length, mesh.labels.length],
+      [2 * vertices, 3 * vertices, 3 * vertices, vertices],
+    );
+    assert.ok([...mesh.positions].every(Number.isFinite));
+  });
+
+  test("gives its curves in pixels", () => {
+    const contours = JSON.parse(found.contours());
+    assert.deepEqual([...new Set(contours.map((/** @type {any} */ c) => c.label))], [1, 2]);
+    for (const { points } of contours) {
+      assert.ok(points.length >= 6 && points.length % 2 === 0);
+      assert.ok(points.every((/** @type {number} */ p) => p >= -0.5 && p <= WIDTH));
+    }
+  });
+
+  test("is scored against the truth beside the baseline", () => {
+    const { found: scores, baseline } = JSON.parse(found.scores(scene));
+    assert.ok(scores.labels_wrong >= 0 && scores.labels_wrong <= 1);
+    assert.ok(baseline.aee > 0 && baseline.aae > 0);
+  });
+
+  test("starts again on reset", () => {
+    found.reset();
+    assert.equal(JSON.parse(found.report()).iterations, 0);
+    assert.ok(found.depth().every((z) => z === 1));
+  });
+
+  test("stays as it is when it is given something wrong", () => {
+    const before = [found.report(), found.labels()];
+    const outside = '[{"kind": "circle", "x": 900, "y": 5, "r": 3}]';
+    assert.throws(() => found.setOptions('{"mu": -1}'), {
+      name: "SettingError",
+      message: /mu is -1/,
+    });
+    assert.throws(() => found.setOptions("mu"), { message: /options cannot be read/ });
+    assert.throws(() => found.setCurves(outside), { name: "InputError", message: /curve 1/ });
+    assert.throws(() => found.setCurves('[{"kind": "blob"}]'), {
+      message: /curves cannot be read/,
+    });
+    assert.throws(() => found.view("smell", "{}"), { message: /"smell" is no view/ });
+    assert.throws(() => found.view("depth", '{"scales": [-1]}'), { message: /scales is -1/ });
+    assert.deepEqual([found.report(), found.labels()], before);
+  });
+
+  test("measures its time", () => {
+    const { seconds } = JSON.parse(found.report());
+    assert.ok(seconds.total > 0);
+  });
+});
+
+test("without a principal point a camera looks at the centre", () => {
+  const { focal, cx, cy } = JSON.parse(scene.cameraJson);
+  assert.deepEqual([cx, cy], [(WIDTH - 1) / 2, (HEIGHT - 1) / 2]);
+  const [bare, full] = [{ focal }, { focal, cx, cy }].map((camera) => {
+    const found = solver("{}", scene.shapesJson, JSON.stringify(camera));
+    found.step();
+    return found.flowU();
+  });
+  assert.deepEqual(bare, full);
+});
+
+test("a frame from pixels is the same as from a file", () => {
+  const bytes = scene.files().find(({ name }) => name === "frame0.png")?.bytes;
+  const decoded = Frame.decode(bytes ?? new Uint8Array(), "frame0.png");
+  const copied = Frame.fromRgba(WIDTH, HEIGHT, new Uint8Array(decoded.rgba()));
+  assert.deepEqual(copied.rgba(), scene.first().rgba());
+  assert.throws(() => Frame.fromRgba(WIDTH, HEIGHT, new Uint8Array(7)), {
+    message: /19200 values/,
+  });
+});
+
+test("catalogues say enough to build a form from", () => {
+  const presets = JSON.parse(presetCatalogue()).map((/** @type {any} */ preset) => preset.value);
+  for (const { key, label, meaning, kind, min, max, choices, defaults } of JSON.parse(
+    optionCatalogue(),
+  )) {
+    assert.ok(label && meaning, key);
+    assert.deepEqual(Object.keys(defaults).sort(), [...presets].sort(), key);
+    if (kind === "choice") assert.ok(choices.length > 0, key);
+    else if (kind !== "toggle") assert.ok(min < max, key);
+    for (const preset of presets)
+      solver(JSON.stringify({ preset, [key]: defaults[preset] })).free();
+  }
+  assert.deepEqual(JSON.parse(limits()), { minSide: 16, maxSide: 4096, maxCurves: 7 });
+});
+
+test("a panic leaves its reason behind", () => {
+  // In a process of its own: the module is of no use afterwards.
+  const library = new URL("../../cli/index.js", import.meta.url).href;
+  const script = `
+    import { panicForTest, panicMessage } from ${JSON.stringify(library)};
+    console.error = () => {};
+    console.log(JSON.stringify(panicMessage()));
+    try { panicForTest("the sky fell"); } catch (error) { console.log(error.name); }
+    console.log(panicMessage());
+  `;
+  const printed = execFileSync(process.execPath, ["--input-type=module", "--eval", script], {
+    cwd: fileURLToPath(new URL("../..", import.meta.url)),
+    encoding: "utf8",
+  });
+  const [before, name, after] = printed.trim().split("\n");
+  assert.deepEqual([before, name], ['""', "RuntimeError"]);
+  assert.match(after ?? "", /internal error at src\/wasm\/panic\.rs:\d+: the sky fell/);
+});
