@@ -1,0 +1,142 @@
+/**
+ * Editing the initial curves: every change is a step that can be undone.
+ *
+ * While a curve is being dragged it is `preview`ed, and becomes a step when it is let go.
+ */
+
+import { announce } from "./dom";
+import { configure } from "./session";
+import { store } from "./store";
+import type { Point, Shape } from "./worker/protocol";
+
+const MAX_UNDO = 200;
+
+let dragged: Shape[] | null = null;
+
+/** Shows the curves as they would be, without making a step of it. */
+export function preview(index: number, shape: Shape): void {
+  dragged ??= store.state.shapes;
+  store.update({ shapes: store.state.shapes.with(index, shape) });
+}
+
+/** Makes one step of everything previewed since the last. */
+export function settle(): void {
+  if (!dragged) return;
+  const before = dragged;
+  dragged = null;
+  record(before, store.state.shapes, store.state.selected);
+}
+
+/** Takes back what was previewed. */
+export function abandon(): void {
+  if (!dragged) return;
+  store.update({ shapes: dragged });
+  dragged = null;
+}
+
+export function add(shape: Shape): void {
+  const { shapes, catalogues } = store.state;
+  const most = catalogues?.limits.maxCurves ?? 7;
+  if (shapes.length >= most) {
+    store.update({
+      message: `${most} curves are drawn, more are not possible. Delete one to draw another.`,
+    });
+    return;
+  }
+  record(shapes, [...shapes, shape], shapes.length);
+  announce(`Curve ${shapes.length + 1} added: ${describe(shape)}.`);
+}
+
+export function replace(index: number, shape: Shape): void {
+  const { shapes } = store.state;
+  record(shapes, shapes.with(index, shape), index);
+  announce(`Curve ${index + 1}: ${describe(shape)}.`);
+}
+
+export function remove(index: number): void {
+  const { shapes } = store.state;
+  if (!shapes[index]) return;
+  record(shapes, shapes.toSpliced(index, 1), null);
+  announce(`Curve ${index + 1} deleted.`);
+}
+
+export function select(index: number | null): void {
+  const { shapes, selected } = store.state;
+  if (index === selected) return;
+  store.update({ selected: index });
+  const shape = index === null ? undefined : shapes[index];
+  if (shape) announce(`Curve ${index! + 1} selected: ${describe(shape)}.`);
+}
+
+export function undo(): void {
+  const { past, future, shapes } = store.state;
+  const before = past.at(-1);
+  if (!before) return;
+  restore(before, { past: past.slice(0, -1), future: [shapes, ...future] });
+  announce("Undone.");
+}
+
+export function redo(): void {
+  const { past, future, shapes } = store.state;
+  const after = future[0];
+  if (!after) return;
+  restore(after, { past: [...past, shapes], future: future.slice(1) });
+  announce("Done again.");
+}
+
+function restore(shapes: Shape[], history: { past: Shape[][]; future: Shape[][] }): void {
+  const { selected } = store.state;
+  store.update({
+    ...history,
+    shapes,
+    selected: selected !== null && selected < shapes.length ? selected : null,
+  });
+  void configure();
+}
+
+function record(before: Shape[], after: Shape[], selected: number | null): void {
+  const past = [...store.state.past, before].slice(-MAX_UNDO);
+  store.update({ shapes: after, selected, past, future: [] });
+  void configure();
+}
+
+/** The same curve elsewhere. */
+export function moved(shape: Shape, dx: number, dy: number): Shape {
+  return shape.kind === "circle"
+    ? { ...shape, x: shape.x + dx, y: shape.y + dy }
+    : { ...shape, points: shape.points.map(([x, y]): Point => [x + dx, y + dy]) };
+}
+
+/** The same curve larger or smaller about its middle, never smaller than a pixel. */
+export function resized(shape: Shape, factor: number): Shape {
+  if (shape.kind === "circle") return { ...shape, r: Math.max(1, shape.r * factor) };
+  const [mx, my] = middle(shape);
+  const points = shape.points.map(([x, y]): Point => [
+    mx + (x - mx) * factor,
+    my + (y - my) * factor,
+  ]);
+  return { ...shape, points };
+}
+
+/** Where a curve's name stands, and what resizing leaves in place. */
+export function middle(shape: Shape): Point {
+  if (shape.kind === "circle") return [shape.x, shape.y];
+  const xs = shape.points.map(([x]) => x);
+  const ys = shape.points.map(([, y]) => y);
+  return [(Math.min(...xs) + Math.max(...xs)) / 2, (Math.min(...ys) + Math.max(...ys)) / 2];
+}
+
+/** Half the extent of a curve, for handles. */
+export function extent(shape: Shape): Point {
+  if (shape.kind === "circle") return [shape.r, shape.r];
+  const xs = shape.points.map(([x]) => x);
+  const ys = shape.points.map(([, y]) => y);
+  return [(Math.max(...xs) - Math.min(...xs)) / 2, (Math.max(...ys) - Math.min(...ys)) / 2];
+}
+
+export function describe(shape: Shape): string {
+  const [x, y] = middle(shape).map(Math.round);
+  return shape.kind === "circle"
+    ? `circle at ${x}, ${y}, radius ${Math.round(shape.r)}`
+    : `outline of ${shape.points.length} points about ${x}, ${y}`;
+}

@@ -1,0 +1,35 @@
+/** Numbers as people read them. */
+
+const minus = (text: string) => text.replace("-", "−").replace("e-", "e−");
+
+/** About `digits` significant digits, no exponent between 0.001 and 10 million. */
+export function number(value: number, digits = 3): string {
+  if (!Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size < 1e-3 || size >= 1e7) return minus(value.toExponential(Math.max(0, digits - 1)));
+  const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
+  return minus(value.toFixed(decimals));
+}
+
+/** A fixed number of decimals, with a true minus sign. */
+export function fixed(value: number, decimals: number): string {
+  if (!Number.isFinite(value)) return "–";
+  const text = value.toFixed(decimals);
+  return minus(Number(text) === 0 ? text.replace("-", "") : text);
+}
+
+/** A share between 0 and 1 in percent. */
+export function percent(share: number, decimals = 1): string {
+  return `${fixed(100 * share, decimals)} %`;
+}
+
+/** Whole numbers in groups of three. */
+export function count(value: number): string {
+  return value.toLocaleString("en").replaceAll(",", " ");
+}
+
+/** Seconds, coarse enough not to flicker. */
+export function seconds(value: number): string {
+  return value < 10 ? `${fixed(value, 1)} s` : `${fixed(value, 0)} s`;
+}

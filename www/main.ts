@@ -1,0 +1,51 @@
+/**
+ * Relievo's page: puts the parts together and opens the first sequence.
+ *
+ * State is in `store.ts`, commands are in `session.ts` and `curves.ts`; every part below watches what
+ * it shows and calls what it offers. What is computed is computed in the worker.
+ */
+
+import about from "./about.html?raw";
+import { byId } from "./dom";
+import { mountCamera } from "./panels/camera";
+import { mountEnergy, rebuild as rebuildEnergy } from "./panels/energy";
+import { mountFiles } from "./panels/files";
+import { mountFrames } from "./panels/frames";
+import { mountMessage } from "./panels/message";
+import { mountOptions } from "./panels/options";
+import { mountRegions } from "./panels/regions";
+import { mountScores } from "./panels/scores";
+import { mountSequence } from "./panels/sequence";
+import { mountTheme } from "./panels/theme";
+import { mountTransport } from "./panels/transport";
+import { mountViewbar } from "./panels/viewbar";
+import { mountRelief } from "./relief/relief";
+import { start } from "./session";
+import { mountKeys } from "./stage/keys";
+import { mountStage } from "./stage/stage";
+import { mountTools } from "./stage/tools";
+import { store } from "./store";
+
+byId("about").innerHTML = about;
+
+mountMessage();
+mountSequence();
+mountStage();
+mountTools();
+mountKeys();
+mountViewbar();
+mountTransport();
+mountFrames();
+mountRegions();
+mountEnergy();
+mountScores();
+mountCamera();
+mountOptions();
+mountFiles();
+mountRelief();
+mountTheme(rebuildEnergy);
+
+/** For the browser's console: what the page knows, to read. */
+Object.defineProperty(window, "relievo", { get: () => store.state });
+
+void start();

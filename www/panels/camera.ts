@@ -1,0 +1,83 @@
+/** Focal length in pixels, the field of view it means, and, for those who know it, the principal point. */
+
+import { byId, make } from "../dom";
+import { fixed } from "../format";
+import { configure } from "../session";
+import { store } from "../store";
+
+/** 2 arctan(w / 2f), in degrees. */
+const fieldOfView = (width: number, focal: number) =>
+  (2 * Math.atan(width / (2 * focal)) * 180) / Math.PI;
+const focalOf = (width: number, degrees: number) =>
+  width / (2 * Math.tan((degrees * Math.PI) / 360));
+
+export function mountCamera(): void {
+  const focal = numberField("focal", "Focal length f, px", "any");
+  const view = numberField("fov", "Field of view, °", "0.1");
+  const slider = make("input", { type: "range", id: "fov-slider", min: 5, max: 120, step: 0.5 });
+  slider.setAttribute("aria-label", "Field of view");
+  const cx = numberField("cx", "Column, px", "any");
+  const cy = numberField("cy", "Row, px", "any");
+  const advanced = make(
+    "details",
+    {},
+    make("summary", {}, "Principal point"),
+    make("div", { class: "pairing" }, cx.field, cy.field),
+    make("p", { class: "note" }, "Where the optical axis meets the frame; as a rule its centre."),
+  );
+  byId("camera").append(
+    make("div", { class: "pairing" }, focal.field, view.field),
+    slider,
+    make(
+      "p",
+      { class: "note" },
+      "Taken from the sequence, or guessed for frames of your own. A wrong f bends depth more than outlines.",
+    ),
+    advanced,
+  );
+
+  const set = (camera: Partial<typeof store.state.camera>) => {
+    store.update({ camera: { ...store.state.camera, ...camera } });
+    void configure();
+  };
+  focal.input.addEventListener("change", () => set({ focal: asNumber(focal.input) ?? 0 }));
+  const byAngle = (input: HTMLInputElement) => () =>
+    set({ focal: focalOf(store.state.width, asNumber(input) ?? 0) });
+  view.input.addEventListener("change", byAngle(view.input));
+  slider.addEventListener("change", byAngle(slider));
+  slider.addEventListener("input", () => {
+    const f = focalOf(store.state.width, Number(slider.value));
+    focal.input.value = f.toFixed(1);
+    view.input.value = Number(slider.value).toFixed(1);
+  });
+  cx.input.addEventListener("change", () => set({ cx: asNumber(cx.input) }));
+  cy.input.addEventListener("change", () => set({ cy: asNumber(cy.input) }));
+
+  store.watch(
+    ({ camera, width, height }) => [camera, width, height],
+    ({ camera, width, height }) => {
+      if (width === 0) return;
+      const degrees = fieldOfView(width, camera.focal);
+      focal.input.value = plain(camera.focal);
+      view.input.value = fixed(degrees, 1);
+      slider.value = String(degrees);
+      slider.setAttribute("aria-valuetext", `${fixed(degrees, 1)} degrees`);
+      cx.input.value = plain(camera.cx ?? (width - 1) / 2);
+      cy.input.value = plain(camera.cy ?? (height - 1) / 2);
+    },
+  );
+}
+
+/** An empty field is no number: without f the core says what it wants, without centre it takes its own. */
+function asNumber(input: HTMLInputElement): number | undefined {
+  return input.value.trim() === "" ? undefined : Number(input.value);
+}
+
+const plain = (value: number) =>
+  Number.isFinite(value) ? String(Math.round(value * 100) / 100) : "";
+
+function numberField(id: string, label: string, step: string) {
+  const input = make("input", { type: "number", id, step, inputmode: "decimal" });
+  const field = make("label", { class: "stacked", for: id }, make("span", {}, label), input);
+  return { input, field };
+}

@@ -1,0 +1,69 @@
+/** Results to take away: the view as it is, and the files that the command line writes too. */
+
+import { byId, make } from "../dom";
+import { ask } from "../session";
+import { stagePicture } from "../stage/stage";
+import { store } from "../store";
+import { wantedParams } from "../views";
+import type { ResultFile } from "../worker/protocol";
+
+const TYPES: Record<string, string> = { png: "image/png", json: "application/json" };
+
+let addresses: string[] = [];
+let reliefPicture: (() => Promise<Blob | null>) | null = null;
+
+/** The relief view draws itself; it leaves here how to take its picture. */
+export function setReliefPicture(take: () => Promise<Blob | null>): void {
+  reliefPicture = take;
+}
+
+export function mountFiles(): void {
+  const list = byId<HTMLButtonElement>("save-files");
+  const clear = () => {
+    addresses.forEach((address) => URL.revokeObjectURL(address));
+    addresses = [];
+    byId("files").replaceChildren();
+  };
+  list.addEventListener("click", async () => {
+    const files = await ask("Writing files", (service) => service.files(wantedParams(store.state)));
+    if (!files) return;
+    clear();
+    byId("files").append(...files.map(link));
+    byId("files").querySelector("a")?.focus();
+  });
+  byId("save-view").addEventListener("click", async () => {
+    const relief = store.state.view === "relief" && reliefPicture;
+    const blob = await (relief ? relief() : stagePicture());
+    if (!blob) return;
+    const { view, source } = store.state;
+    const name = source?.kind === "scene" ? source.name : "frames";
+    save(blob, `relievo-${name}-${view}.png`);
+  });
+  store.watch(
+    ({ frames, started, busy }) => [frames, started, busy],
+    ({ frames, started, busy }) => {
+      list.disabled = !started || busy !== null;
+      byId<HTMLButtonElement>("save-view").disabled = !frames;
+    },
+  );
+  // Files of an earlier result would be mistaken for the present one.
+  store.watch(({ source, report }) => [source, report], clear);
+}
+
+function link(file: ResultFile): HTMLElement {
+  const type = TYPES[file.name.split(".").pop() ?? ""] ?? "application/octet-stream";
+  const address = URL.createObjectURL(new Blob([file.bytes], { type }));
+  addresses.push(address);
+  const size = `${Math.max(1, Math.round(file.bytes.length / 1024))} kB`;
+  return make(
+    "li",
+    {},
+    make("a", { href: address, download: file.name }, file.name, make("small", {}, size)),
+  );
+}
+
+function save(blob: Blob, name: string): void {
+  const address = URL.createObjectURL(blob);
+  make("a", { href: address, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}

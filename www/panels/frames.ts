@@ -1,0 +1,168 @@
+/**
+ * The two frames: which they are, and how one brings one's own (picker, drop, paste).
+ *
+ * A first or second frame of one's own waits in its slot until its partner is there; only then are
+ * both opened together, and until they prove good the stage keeps what it shows.
+ */
+
+import { byId, icon, make } from "../dom";
+import { ask, open } from "../session";
+import { store, type Slot, type State } from "../store";
+
+const ACCEPT = "image/png,image/jpeg,image/webp,image/bmp,image/tiff,.pnm,.pgm,.ppm,.pbm,.pam,.tif";
+
+export function mountFrames(): void {
+  store.watch(({ frames, slots, names, source }) => [frames, slots, names, source], render);
+  mountDrop();
+  document.addEventListener("paste", (event) => {
+    const files = [...(event.clipboardData?.files ?? [])];
+    if (files.length === 0) return;
+    event.preventDefault();
+    void takeAll(files, null);
+  });
+}
+
+/** One file goes to `side` or the first empty slot; of several, the first two by name. */
+async function takeAll(files: File[], side: 0 | 1 | null): Promise<void> {
+  if (files.length >= 2) {
+    const [first, second] = files
+      .toSorted((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }))
+      .slice(0, 2);
+    await take(first!, 0, false);
+    await take(second!, 1, true);
+  } else if (files[0]) {
+    await take(files[0], side ?? (store.state.slots[0] ? 1 : 0), true);
+  }
+}
+
+async function take(file: File, side: 0 | 1, last: boolean): Promise<void> {
+  const name = file.name || (side === 0 ? "first frame" : "second frame");
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  const seen = await ask(`Reading ${name}`, (service) => service.preview({ name, bytes }));
+  if (!seen) return;
+  const slot: Slot = { name, bytes, ...seen };
+  const slots: State["slots"] = [...store.state.slots];
+  slots[side] = slot;
+  store.update({ slots });
+  if (last) await openBoth();
+}
+
+async function openBoth(): Promise<void> {
+  const [first, second] = store.state.slots;
+  if (!first || !second) return;
+  // Copies, since the worker may be restarted and need them again.
+  const file = ({ name, bytes }: Slot) => ({ name, bytes });
+  await open({ kind: "files", first: file(first), second: file(second) }, "Opening your frames");
+}
+
+async function swap(): Promise<void> {
+  const [first, second] = store.state.slots;
+  store.update({ slots: [second, first] });
+  await openBoth();
+}
+
+/** Whether the pair on the stage is the one in the slots. */
+function inUse({ source, slots }: Readonly<State>): boolean {
+  return (
+    source?.kind === "files" &&
+    source.first.bytes === slots[0]?.bytes &&
+    source.second.bytes === slots[1]?.bytes
+  );
+}
+
+function render(state: Readonly<State>): void {
+  const { slots } = state;
+  const own = slots[0] !== null || slots[1] !== null;
+  const cards = ([0, 1] as const).map((side) => card(side, state, own));
+  const swapper = make("button", { type: "button", class: "quiet icon-only", id: "swap" });
+  swapper.append(icon("swap"), make("span", { class: "visually-hidden" }, "Swap the two frames"));
+  swapper.disabled = !own;
+  swapper.addEventListener("click", () => void swap());
+  const held = document.activeElement?.id;
+  byId("slots").replaceChildren(cards[0]!, swapper, cards[1]!);
+  if (held) document.getElementById(held)?.focus();
+  const note = byId("slots-note");
+  note.replaceChildren(explain(state, own));
+  if (own) {
+    const discard = make("button", { type: "button", class: "quiet", id: "discard" }, "Discard");
+    discard.addEventListener("click", () => store.update({ slots: [null, null] }));
+    if (!inUse(state)) note.append(" ", discard);
+  }
+}
+
+function explain(state: Readonly<State>, own: boolean): string {
+  if (!own) {
+    return "Bring your own: choose, drop or paste two frames of one film, taken shortly after each other.";
+  }
+  const missing = state.slots[0] ? (state.slots[1] ? null : "second") : "first";
+  if (missing) {
+    return `The ${missing} frame is still missing. Until it is there, the stage keeps ${state.title || "what it shows"}.`;
+  }
+  return inUse(state)
+    ? "These are your frames. Draw a curve round each thing that moves by itself, then run."
+    : `These two are not in use; the stage keeps ${state.title}.`;
+}
+
+function card(side: 0 | 1, state: Readonly<State>, own: boolean): HTMLElement {
+  const title = side === 0 ? "First" : "Second";
+  const slot = state.slots[side];
+  const picture = own ? slot?.picture : state.frames?.[side];
+  const input = make("input", { type: "file", accept: ACCEPT, id: `file-${side}` });
+  input.addEventListener("change", () => void takeAll([...(input.files ?? [])], side));
+  input.multiple = true;
+  const size = slot ? ` · ${slot.width}×${slot.height}` : "";
+  return make(
+    "div",
+    { class: "slot" },
+    make("h3", {}, `${title} frame`),
+    picture ? thumbnail(picture) : make("div", { class: "empty" }, "missing"),
+    slot ? make("span", { class: "name", title: slot.name }, `${slot.name}${size}`) : null,
+    make(
+      "label",
+      { class: "pick" },
+      input,
+      make("span", { class: "visually-hidden" }, `${title} frame: `),
+      make("span", {}, "Choose…"),
+    ),
+  );
+}
+
+function thumbnail(picture: ImageBitmap): HTMLCanvasElement {
+  const canvas = make("canvas", { "aria-hidden": "true" });
+  const factor = Math.min(1, 256 / Math.max(picture.width, picture.height, 1));
+  canvas.width = Math.max(1, Math.round(picture.width * factor));
+  canvas.height = Math.max(1, Math.round(picture.height * factor));
+  if (picture.width > 0) {
+    canvas.getContext("2d")!.drawImage(picture, 0, 0, canvas.width, canvas.height);
+  }
+  return canvas;
+}
+
+function mountDrop(): void {
+  const zone = byId("dropzone");
+  const sides = [...zone.querySelectorAll<HTMLElement>("[data-slot]")];
+  const carriesFiles = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
+  const sideAt = (event: DragEvent): 0 | 1 => {
+    const box = zone.getBoundingClientRect();
+    return event.clientX < box.left + box.width / 2 ? 0 : 1;
+  };
+  const mark = (side: number | null) =>
+    sides.forEach((element, i) => element.classList.toggle("over", i === side));
+
+  document.addEventListener("dragover", (event) => {
+    if (!carriesFiles(event)) return;
+    event.preventDefault();
+    zone.hidden = false;
+    mark(sideAt(event));
+  });
+  document.addEventListener("dragleave", (event) => {
+    if (event.relatedTarget === null) zone.hidden = true;
+  });
+  document.addEventListener("drop", (event) => {
+    if (!carriesFiles(event)) return;
+    event.preventDefault();
+    const side = sideAt(event);
+    zone.hidden = true;
+    void takeAll([...event.dataTransfer!.files], side);
+  });
+}

@@ -1,0 +1,148 @@
+/**
+ * One row for each region: its colour, its size, its motion, and the depth factor that two frames
+ * leave open.
+ */
+
+import { describe, remove, select } from "../curves";
+import { byId, icon, make } from "../dom";
+import { count, fixed, number, percent } from "../format";
+import { look } from "../session";
+import { addAtCentre } from "../stage/tools";
+import { store, type State } from "../store";
+import type { Region } from "../worker/protocol";
+
+const KINDS: Record<string, string> = {
+  still: "at rest",
+  rotation: "rotation",
+  translation: "translation",
+  full: "full",
+};
+
+export function mountRegions(): void {
+  byId("add-circle").addEventListener("click", () => {
+    store.update({ view: "curves", tool: "select" });
+    addAtCentre();
+  });
+  store.watch(({ shapes, catalogues, frames }) => [shapes.length, catalogues, frames], build);
+  store.watch(
+    ({ shapes, selected, report, started, catalogues, frames }) => [
+      shapes,
+      selected,
+      report,
+      started,
+      catalogues,
+      frames,
+    ],
+    refresh,
+  );
+}
+
+let rows: HTMLElement[] = [];
+
+function build({ shapes, catalogues, frames }: Readonly<State>): void {
+  const regions = frames ? shapes.length + 1 : 0;
+  rows = Array.from({ length: regions }, (_, label) =>
+    row(label, catalogues?.colours[label] ?? "grey"),
+  );
+  byId("regions").replaceChildren(...rows);
+}
+
+function row(label: number, colour: string): HTMLElement {
+  const chip = make("span", { class: "chip", "aria-hidden": "true" });
+  chip.style.background = colour;
+  const head = make("div", { class: "region-head" }, chip);
+  if (label === 0) {
+    head.append(make("strong", {}, "Background"));
+  } else {
+    const choose = make("button", { type: "button", class: "choose" }, `Curve ${label}`);
+    choose.addEventListener("click", () => {
+      store.update({ view: "curves", tool: "select" });
+      select(label - 1);
+      byId("overlay").focus({ preventScroll: true });
+    });
+    head.append(choose);
+  }
+  head.append(make("span", { class: "facts" }));
+  if (label > 0) {
+    const drop = make("button", { type: "button", class: "quiet icon-only" }, icon("delete"));
+    drop.append(make("span", { class: "visually-hidden" }, `Delete curve ${label}`));
+    drop.addEventListener("click", () => remove(label - 1));
+    head.append(drop);
+  }
+  return make("li", { class: "region" }, head, motionTable(), scale(label));
+}
+
+function motionTable(): HTMLElement {
+  const line = (name: string, hint: string, unit: string) => [
+    make("i", { title: hint }, name),
+    ...[0, 1, 2].map(() => make("span", { "data-number": name })),
+    make("span", { class: "unit" }, unit),
+  ];
+  return make(
+    "div",
+    { class: "motion" },
+    ...line("T", "Translation per frame, in units in which the region's mean 1/Z is 1", "· Z̄"),
+    ...line("ω", "Rotation per frame, in degrees about x, y and z", "°"),
+  );
+}
+
+/** Factors between a quarter and four, the middle of the slider leaving depth as it is. */
+function scale(label: number): HTMLElement {
+  const id = `scale-${label}`;
+  const slider = make("input", { type: "range", id, min: -2, max: 2, step: 0.05, value: 0 });
+  const output = make("output", { for: id }, "×1");
+  slider.addEventListener("input", () => {
+    const factor = 2 ** Number(slider.value);
+    output.textContent = `×${number(factor, 2)}`;
+    const scales = store.state.shapes.map(() => 1);
+    scales.push(1);
+    store.update({
+      scales: scales.map((one, k) => (k === label ? factor : (store.state.scales[k] ?? one))),
+    });
+    void look();
+  });
+  return make("div", { class: "scale" }, make("label", { for: id }, "Depth"), slider, output);
+}
+
+function refresh({ shapes, selected, report, started, frames }: Readonly<State>): void {
+  for (const [label, element] of rows.entries()) {
+    const region = started ? report?.regions.find((one) => one.label === label) : undefined;
+    const chosen = label > 0 && selected === label - 1;
+    element.classList.toggle("selected", chosen);
+    element.querySelector(".choose")?.setAttribute("aria-pressed", String(chosen));
+    const shape = shapes[label - 1];
+    const facts = element.querySelector(".facts")!;
+    facts.textContent = region ? facing(region) : shape ? describe(shape) : "everything else";
+    const table = element.querySelector<HTMLElement>(".motion")!;
+    table.hidden = !region;
+    element.querySelector<HTMLElement>(".scale")!.hidden = !region || rows.length < 2;
+    if (region) fill(table, region);
+  }
+  byId("regions-note").textContent = !frames ? "" : notes(shapes.length, started);
+  const warnings = started ? (report?.warnings ?? []) : [];
+  byId("warnings").replaceChildren(
+    ...warnings.map((text) => make("li", {}, text.charAt(0).toUpperCase() + text.slice(1) + ".")),
+  );
+}
+
+function notes(curves: number, started: boolean): string {
+  if (curves === 0) {
+    return "No curve is drawn: the whole frame is taken for one region, as from a moving camera.";
+  }
+  return started
+    ? "Two frames do not tell how deep one region lies against another: each has a scale of its own, and the sliders set it by eye."
+    : "A rough curve that covers part of each moving thing is enough.";
+}
+
+const facing = ({ pixels, share, kind }: Region) =>
+  `${count(pixels)} px · ${percent(share)} · ${KINDS[kind] ?? kind}`;
+
+function fill(table: HTMLElement, region: Region): void {
+  const cells = [...table.querySelectorAll<HTMLElement>("[data-number]")];
+  const degrees = region.rotation.map((angle) => (angle * 180) / Math.PI);
+  const texts = [
+    ...region.translation.map((value) => fixed(value, 4)),
+    ...degrees.map((value) => fixed(value, 3)),
+  ];
+  cells.forEach((cell, i) => (cell.textContent = texts[i] ?? ""));
+}

@@ -1,0 +1,111 @@
+/**
+ * How far from the truth, beside the baseline: only for sequences whose truth is known.
+ *
+ * Horn–Schunck finds image motion and nothing else, so only two rows have a figure for it.
+ */
+
+import { byId, make } from "../dom";
+import { fixed, percent } from "../format";
+import { store, type State } from "../store";
+import type { Scores } from "../worker/protocol";
+
+interface Row {
+  name: string;
+  meaning: string;
+  found: string;
+  baseline?: string;
+  /** Whether the method did better than the baseline. */
+  better?: boolean;
+}
+
+export function mountScores(): void {
+  store.watch(({ scores, started, shapes }) => [scores, started, shapes.length], refresh);
+}
+
+function refresh({ scores, started }: Readonly<State>): void {
+  byId("scores-panel").hidden = !scores || !started;
+  if (!scores || !started) return;
+  const { found, baseline } = scores;
+  byId("scores").replaceChildren(
+    table(
+      ["", "Found", "Horn–Schunck"],
+      [
+        {
+          name: "AEE",
+          meaning: "Mean error of the image motion",
+          found: unit(found.aee, 3, "px"),
+          baseline: unit(baseline.aee, 3, "px"),
+          better: less(found.aee, baseline.aee),
+        },
+        {
+          name: "AAE",
+          meaning: "Mean angle between (u, v, 1) and the truth",
+          found: unit(found.aae, 2, "°"),
+          baseline: unit(baseline.aae, 2, "°"),
+          better: less(found.aae, baseline.aae),
+        },
+        {
+          name: "Labels wrong",
+          meaning: "Share of pixels in the wrong region",
+          found: percent(found.labels_wrong),
+          baseline: "–",
+        },
+      ].map(line),
+    ),
+    table(
+      ["Region", "IoU", "Depth", "flat", "T", "ω"],
+      found.iou.map((iou, k) => regionLine(found, iou, k)),
+    ),
+    make(
+      "p",
+      { class: "note" },
+      "IoU: overlap of region and truth. Depth: mean error once the region's scale is aligned, beside that of a flat guess. T: angle between directions. ω: difference per frame.",
+    ),
+  );
+}
+
+function line({ name, meaning, found, baseline, better }: Row): HTMLElement {
+  return make(
+    "tr",
+    {},
+    make("th", { scope: "row", title: meaning }, name),
+    make("td", { class: better ? "better" : null }, found),
+    make("td", { class: better === false ? "better" : null }, baseline ?? "–"),
+  );
+}
+
+function regionLine(found: Scores, iou: number | null, k: number): HTMLElement {
+  const turned = found.rotation_error[k];
+  const cells = [
+    iou === null ? "–" : fixed(iou, 2),
+    share(found.depth_error[k]),
+    share(found.flat_depth_error[k]),
+    unit(found.translation_angle[k], 1, "°"),
+    unit(turned === null || turned === undefined ? turned : (turned * 180) / Math.PI, 2, "°"),
+  ];
+  return make(
+    "tr",
+    {},
+    make("th", { scope: "row" }, k === 0 ? "Backgr." : `Curve ${k}`),
+    ...cells.map((text) => make("td", {}, text)),
+  );
+}
+
+function table(heads: string[], rows: HTMLElement[]): HTMLElement {
+  const head = make("tr", {}, ...heads.map((text) => headCell(text)));
+  return make("table", {}, make("thead", {}, head), make("tbody", {}, ...rows));
+}
+
+const headCell = (text: string) => (text ? make("th", { scope: "col" }, text) : make("td"));
+
+type Maybe = number | null | undefined;
+
+const unit = (value: Maybe, decimals: number, name: string) =>
+  value === null || value === undefined
+    ? "–"
+    : `${fixed(value, decimals)} ${name}`.replace(" °", "°");
+
+const share = (value: Maybe) => (value === null || value === undefined ? "–" : percent(value, 0));
+
+const less = (a: Maybe, b: Maybe) =>
+  a === null || a === undefined || b === null || b === undefined ? undefined : a <= b;

@@ -1,0 +1,42 @@
+/** The built-in sequences, and what the present one teaches. */
+
+import { byId, make } from "../dom";
+import { openScene } from "../session";
+import { store } from "../store";
+
+/** Stands for frames of the user's own in the list. */
+const OWN = "";
+
+export function mountSequence(): void {
+  const select = byId<HTMLSelectElement>("scene");
+  select.addEventListener("change", () => {
+    if (select.value !== OWN) void openScene(select.value).then(choosePresent);
+  });
+  const choosePresent = () => {
+    const { source } = store.state;
+    select.value = source?.kind === "scene" ? source.name : OWN;
+  };
+  store.watch(
+    ({ catalogues, source }) => [catalogues, source],
+    ({ catalogues, source }) => {
+      const options = (catalogues?.scenes ?? []).map(({ name, title }) =>
+        make("option", { value: name }, title),
+      );
+      if (source?.kind === "files")
+        options.unshift(make("option", { value: OWN }, "Your own frames"));
+      select.replaceChildren(...options);
+      choosePresent();
+    },
+  );
+  store.watch(
+    ({ title, lesson, width, height }) => [title, lesson, width, height],
+    ({ title, lesson, width, height }) => {
+      byId("sequence-title").textContent = title;
+      byId("lesson").textContent =
+        lesson ||
+        (width > 0
+          ? `${width} × ${height} pixels. Set the camera's focal length if you know it.`
+          : "");
+    },
+  );
+}

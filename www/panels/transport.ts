@@ -1,0 +1,60 @@
+/** Run, pause, step, reset, cancel, and the line that says where the computation stands. */
+
+import { byId, icon } from "../dom";
+import { number, seconds } from "../format";
+import { cancel, pause, reset, run, step } from "../session";
+import { store, type State } from "../store";
+import type { Part } from "../worker/protocol";
+
+const parts = () => document.querySelectorAll<HTMLButtonElement>("[data-part]");
+
+export function mountTransport(): void {
+  const main = byId<HTMLButtonElement>("run");
+  main.addEventListener("click", () => void (store.state.running ? pause() : run()));
+  byId("step").addEventListener("click", () => void step("all"));
+  byId("reset").addEventListener("click", () => void reset());
+  byId("cancel").addEventListener("click", () => void cancel());
+  for (const button of parts()) {
+    button.addEventListener("click", () => void step(button.dataset["part"] as Part));
+  }
+
+  store.watch(
+    ({ running, busy, frames, started }) => [running, busy, frames, started],
+    ({ running, busy, frames, started }) => {
+      main.replaceChildren(icon(running ? "pause" : "run"), running ? "Pause" : "Run");
+      const idle = frames !== null && busy === null;
+      main.disabled = !idle;
+      byId<HTMLButtonElement>("step").disabled = !idle || running;
+      byId<HTMLButtonElement>("reset").disabled = !idle || !started;
+      for (const button of parts()) button.disabled = !idle || running;
+      byId("cancel").hidden = !running && busy === null;
+      document.body.dataset["running"] = String(running);
+    },
+  );
+  store.watch(
+    ({ report, running, started, busy }) => [report, running, started, busy],
+    (state) => {
+      byId("status").textContent = standing(state);
+    },
+  );
+}
+
+/** One line: how far, how it ended, how much energy is left, how long it took. */
+export function standing({ report, running, started, busy, frames }: Readonly<State>): string {
+  if (busy) return `${busy}…`;
+  if (!frames) return "";
+  if (!report || !started) return "Ready";
+  const passes = report.iterations === 1 ? "1 pass" : `${report.iterations} passes`;
+  const scale =
+    report.levels > 1 ? ` · scale ${report.levels - report.level} of ${report.levels}` : "";
+  const state = running ? "Running" : ENDED[report.status];
+  const time = report.seconds.total > 0 ? ` · ${seconds(report.seconds.total)}` : "";
+  return `${state} · ${passes}${scale} · E ${number(report.energy.total)}${time}`;
+}
+
+const ENDED: Record<string, string> = {
+  running: "Paused",
+  converged: "Converged",
+  exhausted: "Out of iterations",
+  diverged: "Diverged",
+};

@@ -1,0 +1,109 @@
+/** Which view, what it lets one choose, which tool, which of the two frames. */
+
+import { redo, remove, undo } from "../curves";
+import { byId, make } from "../dom";
+import { number } from "../format";
+import { look } from "../session";
+import { store, type Showing, type State, type Tool, type ViewParams } from "../store";
+import { available, viewOf, type Setting } from "../views";
+
+export function mountViewbar(): void {
+  store.watch(({ catalogues, truth }) => [catalogues, truth], buildViews);
+  store.watch(({ view, catalogues }) => [view, catalogues], showView);
+  store.watch(
+    ({ view, viewParams }) => [view, viewParams],
+    () => void look(),
+  );
+  mountTools();
+  mountShowing();
+}
+
+function buildViews(state: Readonly<State>): void {
+  const place = byId("views");
+  place.querySelectorAll("label").forEach((label) => label.remove());
+  for (const { id, label } of available(state)) {
+    const input = make("input", { type: "radio", name: "view", value: id, id: `view-${id}` });
+    input.checked = id === store.state.view;
+    input.addEventListener("change", () => store.update({ view: id }));
+    place.append(make("label", {}, input, make("span", {}, label)));
+  }
+}
+
+function showView(state: Readonly<State>): void {
+  const view = viewOf(state.view);
+  const radio = document.getElementById(`view-${view.id}`) as HTMLInputElement | null;
+  if (radio) radio.checked = true;
+  byId("hint").textContent = view.hint;
+  byId("stage").dataset["view"] = view.id;
+  const editable = view.id === "curves";
+  byId("tools").hidden = !editable;
+  byId("overlay").hidden = !editable;
+  byId("showing").hidden = !editable;
+  byId("relief").hidden = view.id !== "relief";
+  byId("view-choices").replaceChildren(...view.settings(state).map(control));
+}
+
+function set<K extends keyof ViewParams>(key: K, value: ViewParams[K]): void {
+  store.update({ viewParams: { ...store.state.viewParams, [key]: value } });
+}
+
+function control({ key, label, choices, range }: Setting): HTMLElement {
+  const present = store.state.viewParams[key];
+  const id = `setting-${key}`;
+  if (choices) {
+    const select = make("select", { id });
+    select.append(...choices.map(({ value, label }) => make("option", { value }, label)));
+    select.value = String(present);
+    select.addEventListener("change", () => set(key, select.value as never));
+    return make("label", { class: "field" }, make("span", {}, label), select);
+  }
+  if (range) {
+    const slider = make("input", { type: "range", id, ...range });
+    slider.value = String(present);
+    slider.setAttribute("aria-valuetext", number(Number(present), 2));
+    slider.addEventListener("input", () => {
+      slider.setAttribute("aria-valuetext", number(Number(slider.value), 2));
+      set(key, Number(slider.value) as never);
+    });
+    return make("label", { class: "field" }, make("span", {}, label), slider);
+  }
+  const box = make("input", { type: "checkbox", id });
+  box.checked = present === true;
+  box.addEventListener("change", () => set(key, box.checked as never));
+  return make("label", { class: "check field" }, box, make("span", {}, label));
+}
+
+function mountTools(): void {
+  const radios = [...document.querySelectorAll<HTMLInputElement>('input[name="tool"]')];
+  for (const radio of radios) {
+    radio.addEventListener("change", () => store.update({ tool: radio.value as Tool }));
+  }
+  byId("undo").addEventListener("click", undo);
+  byId("redo").addEventListener("click", redo);
+  byId("delete").addEventListener("click", () => {
+    if (store.state.selected !== null) remove(store.state.selected);
+  });
+  store.watch(
+    ({ tool, past, future, selected }) => [tool, past.length, future.length, selected],
+    ({ tool, past, future, selected }) => {
+      for (const radio of radios) radio.checked = radio.value === tool;
+      byId("overlay").dataset["tool"] = tool;
+      byId<HTMLButtonElement>("undo").disabled = past.length === 0;
+      byId<HTMLButtonElement>("redo").disabled = future.length === 0;
+      byId<HTMLButtonElement>("delete").disabled = selected === null;
+    },
+  );
+}
+
+function mountShowing(): void {
+  const radios = [...document.querySelectorAll<HTMLInputElement>('input[name="showing"]')];
+  for (const radio of radios) {
+    radio.addEventListener("change", () => store.update({ showing: radio.value as Showing }));
+  }
+  store.watch(
+    ({ showing }) => [showing],
+    ({ showing }) => {
+      for (const radio of radios) radio.checked = radio.value === showing;
+    },
+  );
+}

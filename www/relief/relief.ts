@@ -1,0 +1,90 @@
+/**
+ * Depth as a surface to turn in one's hands.
+ *
+ * three.js is fetched the first time the view is opened; nothing is drawn while it is hidden, and only
+ * when something has changed. The surface turns about its middle by drag, pinch, or arrow keys.
+ */
+
+import { announce, byId } from "../dom";
+import { onMesh } from "../session";
+import { setReliefPicture } from "../panels/files";
+import { store } from "../store";
+import type { MeshData } from "../worker/protocol";
+import type { Scenery } from "./scenery";
+
+let scenery: Scenery | null = null;
+let pending: MeshData | null = null;
+
+export function mountRelief(): void {
+  onMesh((mesh) => {
+    if (scenery) scenery.setMesh(mesh);
+    else pending = mesh;
+  });
+  setReliefPicture(async () => scenery?.picture() ?? null);
+  store.watch(
+    ({ view }) => [view],
+    ({ view }) => {
+      if (view === "relief") void open();
+    },
+  );
+  store.watch(
+    ({ frames, viewParams }) => [frames, viewParams.material, viewParams.lightAngle],
+    dress,
+  );
+}
+
+let opening: Promise<void> | null = null;
+
+async function open(): Promise<void> {
+  opening ??= (async () => {
+    const { Scenery } = await import("./scenery");
+    const made = new Scenery(byId("relief"));
+    scenery = made;
+    dress();
+    if (pending) made.setMesh(pending);
+    pending = null;
+    mountKeys(made);
+  })();
+  try {
+    await opening;
+    scenery?.resize();
+  } catch (error) {
+    opening = null;
+    store.update({
+      message: `The relief cannot be shown: ${(error as Error).message}. It needs WebGL; the other views do not.`,
+      view: "depth",
+    });
+  }
+}
+
+function dress(): void {
+  const { frames, viewParams } = store.state;
+  if (!scenery || !frames) return;
+  scenery.setTexture(frames[0]);
+  scenery.setMaterial(viewParams.material === "plaster");
+  scenery.setLight((viewParams.lightAngle * Math.PI) / 180);
+}
+
+const TURN = Math.PI / 36;
+
+function mountKeys(scenery: Scenery): void {
+  const actions: Record<string, () => void> = {
+    ArrowLeft: () => scenery.turn(-TURN, 0),
+    ArrowRight: () => scenery.turn(TURN, 0),
+    ArrowUp: () => scenery.turn(0, -TURN),
+    ArrowDown: () => scenery.turn(0, TURN),
+    "+": () => scenery.approach(1 / 1.1),
+    "=": () => scenery.approach(1 / 1.1),
+    "-": () => scenery.approach(1.1),
+    Home: () => {
+      scenery.home();
+      announce("Relief seen from the front.");
+    },
+  };
+  scenery.canvas.addEventListener("keydown", (event) => {
+    const action = event.ctrlKey || event.metaKey ? undefined : actions[event.key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  });
+}

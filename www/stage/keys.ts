@@ -1,0 +1,138 @@
+/**
+ * The stage and the page by keyboard.
+ *
+ * On the stage: arrows move the selected curve (Shift: ten pixels), + and − resize it, Delete removes
+ * it, N and P select the next and the last, C adds a circle at the centre. With a drawing tool the
+ * arrows move a crosshair, Enter sets a centre or corner, Enter on the first corner closes, Escape
+ * gives up. Everywhere: Ctrl Z and Ctrl Shift Z undo and redo.
+ */
+
+import { moved, redo, remove, replace, resized, select, undo } from "../curves";
+import { byId } from "../dom";
+import { store } from "../store";
+import type { Point } from "../worker/protocol";
+import {
+  addAtCentre,
+  currentCrosshair,
+  currentSketch,
+  finish,
+  setCrosshair,
+  setSketch,
+} from "./tools";
+
+const ARROWS: Record<string, Point> = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, -1],
+  ArrowDown: [0, 1],
+};
+
+/** The largest change of size one key press makes. */
+const GROW = 1.08;
+
+export function mountKeys(): void {
+  byId("overlay").addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || store.state.view !== "curves") return;
+    const used = store.state.tool === "select" ? editing(event) : drawing(event);
+    if (used) event.preventDefault();
+  });
+  byId("overlay").addEventListener("blur", () => setCrosshair(null));
+  document.addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || typing(event.target)) return;
+    const key = event.key.toLowerCase();
+    if (key === "z" && !event.shiftKey) undo();
+    else if ((key === "z" && event.shiftKey) || key === "y") redo();
+    else return;
+    event.preventDefault();
+  });
+}
+
+function editing(event: KeyboardEvent): boolean {
+  const { shapes, selected } = store.state;
+  const shape = selected === null ? undefined : shapes[selected];
+  const arrow = ARROWS[event.key];
+  if (arrow) {
+    if (!shape) return false;
+    const far = event.shiftKey ? 10 : 1;
+    replace(selected!, moved(shape, arrow[0] * far, arrow[1] * far));
+    return true;
+  }
+  switch (event.key) {
+    case "+":
+    case "=":
+      if (shape) replace(selected!, resized(shape, GROW));
+      return true;
+    case "-":
+    case "_":
+      if (shape) replace(selected!, resized(shape, 1 / GROW));
+      return true;
+    case "Delete":
+    case "Backspace":
+      if (selected !== null) remove(selected);
+      return true;
+    case "Escape":
+      select(null);
+      return true;
+    case "n":
+    case "N":
+      if (shapes.length > 0) select(((selected ?? -1) + 1) % shapes.length);
+      return true;
+    case "p":
+    case "P":
+      if (shapes.length > 0) select(((selected ?? 0) - 1 + shapes.length) % shapes.length);
+      return true;
+    case "c":
+    case "C":
+      addAtCentre();
+      return true;
+    default:
+      return false;
+  }
+}
+
+function drawing(event: KeyboardEvent): boolean {
+  const { width, height, tool } = store.state;
+  const here: Point = currentCrosshair() ?? [(width - 1) / 2, (height - 1) / 2];
+  const arrow = ARROWS[event.key];
+  const sketch = currentSketch();
+  if (arrow) {
+    const far = event.shiftKey ? 10 : 1;
+    const within = (value: number, size: number) => Math.min(size - 1, Math.max(0, value));
+    const next: Point = [
+      within(here[0] + arrow[0] * far, width),
+      within(here[1] + arrow[1] * far, height),
+    ];
+    setCrosshair(next);
+    if (sketch) setSketch({ ...sketch, tip: next });
+    return true;
+  }
+  if (event.key === "Escape") {
+    if (sketch) setSketch(null);
+    else store.update({ tool: "select" });
+    setCrosshair(null);
+    return true;
+  }
+  if (event.key !== "Enter" && event.key !== " ") return false;
+  if (tool === "circle") {
+    if (sketch) finish();
+    else setSketch({ tool, points: [here], tip: here });
+  } else {
+    const corners = sketch?.points ?? [];
+    const [first] = corners;
+    const closing = first && Math.hypot(first[0] - here[0], first[1] - here[1]) < 3;
+    const twice = corners.at(-1)?.every((value, i) => value === here[i]);
+    if (corners.length >= 3 && (closing || twice)) finish();
+    else setSketch({ tool: "polygon", points: [...corners, here], tip: here });
+  }
+  if (!currentSketch()) setCrosshair(null);
+  else setCrosshair(here);
+  return true;
+}
+
+/** Fields have an undo of their own. */
+function typing(target: EventTarget | null): boolean {
+  return (
+    target instanceof HTMLTextAreaElement ||
+    (target instanceof HTMLInputElement && ["text", "number", "search"].includes(target.type))
+  );
+}

@@ -1,0 +1,178 @@
+/**
+ * The stage: the pictures of the present view, the curves as they are, and the curves as drawn.
+ *
+ * Two canvases lie on each other. The lower one shows what was computed and changes with every
+ * progress; the upper one shows what can be edited and takes pointer and keys (`tools.ts`).
+ */
+
+import { byId, make } from "../dom";
+import { store, type State } from "../store";
+import { asks, captionsOf, viewOf } from "../views";
+import type { Contour } from "../worker/protocol";
+import { SharpCanvas } from "./canvas";
+import { drawShapes } from "./outline";
+import { panes, presentPanes, setPanes, stagePane, type Box, type Pane } from "./place";
+import { drawSketch, sketchChanged } from "./tools";
+
+const CAPTION_HEIGHT = 26;
+const FLICKER_MS = 450;
+
+let flickerSecond = false;
+
+const lower = new SharpCanvas(byId<HTMLCanvasElement>("picture"), paintPictures);
+const upper = new SharpCanvas(byId<HTMLCanvasElement>("overlay"), (context) => {
+  const { state } = store;
+  if (state.view !== "curves" || !state.frames) return;
+  drawShapes(context, stagePane(), state);
+  drawSketch(context, stagePane());
+});
+
+export function mountStage(): void {
+  store.watch(
+    ({ frames, pictures, contours, started, view, viewParams, catalogues }) => [
+      frames,
+      pictures,
+      contours,
+      started,
+      view,
+      viewParams,
+      catalogues,
+    ],
+    () => lower.invalidate(),
+  );
+  store.watch(
+    ({ shapes, selected, tool, view, frames, started }) => [
+      shapes,
+      selected,
+      tool,
+      view,
+      frames,
+      started,
+    ],
+    () => upper.invalidate(),
+  );
+  sketchChanged(() => upper.invalidate());
+  store.watch(
+    ({ view, pictures, catalogues, width, viewParams }) => [
+      view,
+      pictures.length,
+      catalogues,
+      width,
+      viewParams.compare,
+    ],
+    caption,
+  );
+  store.watch(({ showing }) => [showing], flicker);
+}
+
+/** The present view as a PNG, at the resolution of the screen. */
+export async function stagePicture(): Promise<Blob | null> {
+  const { width, height } = store.state;
+  const layout = presentPanes();
+  if (layout.length === 0) return null;
+  const right = Math.max(...layout.map(({ left, scale }) => left + width * scale));
+  const bottom = Math.max(...layout.map(({ top, scale }) => top + height * scale));
+  const left = Math.min(...layout.map((pane) => pane.left));
+  const top = Math.min(...layout.map((pane) => pane.top));
+  const dense = lower.element.width / lower.size.width;
+  const copy = new OffscreenCanvas(
+    Math.round((right - left) * dense),
+    Math.round((bottom - top) * dense),
+  );
+  copy.getContext("2d")!.drawImage(lower.element, -left * dense, -top * dense);
+  return copy.convertToBlob({ type: "image/png" });
+}
+
+function paintPictures(context: CanvasRenderingContext2D, size: Box): void {
+  const { state } = store;
+  const frame = { width: state.width, height: state.height };
+  if (!state.frames || frame.width === 0) return;
+  const view = viewOf(state.view);
+  if (view.id === "relief") return;
+  const wanted = asks(state).length;
+  const captioned = captionsOf(state).length > 0;
+  const layout = panes(size, frame, Math.max(1, wanted), captioned ? CAPTION_HEIGHT : 0);
+  setPanes(layout);
+  placeCaptions(layout);
+  context.imageSmoothingQuality = "high";
+  const shown = state.frames[flickerSecond ? 1 : 0];
+  for (const [i, pane] of layout.entries()) {
+    const picture = wanted === 0 ? shown : state.pictures[i];
+    if (!picture) continue;
+    context.imageSmoothingEnabled = !view.crisp;
+    context.drawImage(
+      picture,
+      pane.left,
+      pane.top,
+      frame.width * pane.scale,
+      frame.height * pane.scale,
+    );
+    const colours = state.catalogues?.colours ?? [];
+    if (view.curves && (view.id === "curves" || state.viewParams.curvesOnTop)) {
+      drawContours(context, pane, visibleContours(state), colours);
+    }
+  }
+}
+
+/** Before anything was computed the contours are the drawn curves, which the upper canvas shows. */
+function visibleContours({ view, started, contours }: Readonly<State>): Contour[] {
+  return view === "curves" && !started ? [] : contours;
+}
+
+function drawContours(
+  context: CanvasRenderingContext2D,
+  pane: Pane,
+  contours: Contour[],
+  colours: string[],
+): void {
+  context.lineJoin = "round";
+  for (const { label, closed, points } of contours) {
+    const path = new Path2D();
+    for (let i = 0; i + 1 < points.length; i += 2) {
+      path.lineTo(
+        pane.left + (points[i]! + 0.5) * pane.scale,
+        pane.top + (points[i + 1]! + 0.5) * pane.scale,
+      );
+    }
+    if (closed) path.closePath();
+    // A dark rim keeps the line legible on light texture, as a light core does on dark.
+    context.lineWidth = 5;
+    context.strokeStyle = "rgb(0 0 0 / 0.65)";
+    context.stroke(path);
+    context.lineWidth = 2.5;
+    context.strokeStyle = colours[label] ?? "white";
+    context.stroke(path);
+  }
+}
+
+let captionElements: HTMLElement[] = [];
+
+function caption(state: Readonly<State>): void {
+  const place = byId("captions");
+  captionElements = captionsOf(state).map((text) => make("span", {}, text));
+  place.replaceChildren(...captionElements);
+  lower.invalidate();
+}
+
+function placeCaptions(layout: Pane[]): void {
+  for (const [i, element] of captionElements.entries()) {
+    const pane = layout[i];
+    if (!pane) continue;
+    element.style.transform = `translate(${pane.left}px, ${pane.top - CAPTION_HEIGHT}px)`;
+    element.style.maxWidth = `${store.state.width * pane.scale}px`;
+  }
+}
+
+let beat: ReturnType<typeof setInterval> | undefined;
+
+function flicker({ showing }: Readonly<State>): void {
+  clearInterval(beat);
+  flickerSecond = showing === "second";
+  if (showing === "flicker") {
+    beat = setInterval(() => {
+      flickerSecond = !flickerSecond;
+      lower.invalidate();
+    }, FLICKER_MS);
+  }
+  lower.invalidate();
+}

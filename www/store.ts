@@ -1,0 +1,158 @@
+/**
+ * All of the page's state, in one place.
+ *
+ * Anything may read it and watch a part of it; commands in `session.ts` and `curves.ts` change it.
+ */
+
+import type {
+  Camera,
+  Catalogues,
+  Contour,
+  OptionValues,
+  Report,
+  ScoreTable,
+  Shape,
+  Source,
+} from "./worker/protocol";
+
+export type Tool = "select" | "circle" | "freehand" | "polygon";
+export type Showing = "first" | "second" | "flicker";
+
+/** A frame of the user's own that waits for its partner. */
+export interface Slot {
+  name: string;
+  bytes: Uint8Array<ArrayBuffer>;
+  width: number;
+  height: number;
+  picture: ImageBitmap;
+}
+
+export interface ViewParams {
+  palette: string;
+  /** "flow" as colours or "arrows". */
+  motion: string;
+  glasses: string;
+  baseline: number;
+  convergence: number;
+  material: string;
+  lightAngle: number;
+  compare: string;
+  curvesOnTop: boolean;
+}
+
+export interface State {
+  /** What the core offers; `null` until it has loaded. */
+  catalogues: Catalogues | null;
+  /** The pair being worked on. */
+  source: Source | null;
+  title: string;
+  lesson: string;
+  width: number;
+  height: number;
+  frames: [ImageBitmap, ImageBitmap] | null;
+  names: [string, string];
+  truth: boolean;
+  /** Frames of the user's own, waiting until both are there and fit. */
+  slots: [Slot | null, Slot | null];
+
+  /** Initial curves; `shapes[k]` starts region k + 1. */
+  shapes: Shape[];
+  selected: number | null;
+  past: Shape[][];
+  future: Shape[][];
+  camera: Camera;
+  options: OptionValues;
+
+  /** What the page is waiting for, as a phrase; `null` when it waits for nothing. */
+  busy: string | null;
+  running: boolean;
+  /** Whether anything was computed since the curves were drawn; until then they are the contours. */
+  started: boolean;
+  report: Report | null;
+  contours: Contour[];
+  /** Pictures of the present view. */
+  pictures: (ImageBitmap | null)[];
+  scores: ScoreTable | null;
+  /** Depth factor of each region: two frames do not tell it. */
+  scales: number[];
+
+  tool: Tool;
+  view: string;
+  viewParams: ViewParams;
+  showing: Showing;
+  /** A sentence for the message bar. */
+  message: string | null;
+}
+
+type Reaction = () => void;
+
+/** State with subscriptions. */
+export class Store {
+  private reactions: Reaction[] = [];
+
+  constructor(private current: State) {}
+
+  get state(): Readonly<State> {
+    return this.current;
+  }
+
+  update(patch: Partial<State>): void {
+    this.current = { ...this.current, ...patch };
+    for (const react of this.reactions) react();
+  }
+
+  /** Calls `react` now, and again whenever one of the selected values is another than before. */
+  watch(select: (state: State) => readonly unknown[], react: (state: State) => void): void {
+    let last: readonly unknown[] | null = null;
+    const check = () => {
+      const next = select(this.current);
+      if (last && next.every((value, i) => Object.is(value, last![i]))) return;
+      last = next;
+      react(this.current);
+    };
+    this.reactions.push(check);
+    check();
+  }
+}
+
+export const store = new Store({
+  catalogues: null,
+  source: null,
+  title: "",
+  lesson: "",
+  width: 0,
+  height: 0,
+  frames: null,
+  names: ["", ""],
+  truth: false,
+  slots: [null, null],
+  shapes: [],
+  selected: null,
+  past: [],
+  future: [],
+  camera: { focal: 320 },
+  options: {},
+  busy: "Loading",
+  running: false,
+  started: false,
+  report: null,
+  contours: [],
+  pictures: [],
+  scores: null,
+  scales: [],
+  tool: "select",
+  view: "curves",
+  viewParams: {
+    palette: "ember",
+    motion: "flow",
+    glasses: "red-cyan",
+    baseline: 0.025,
+    convergence: 0.5,
+    material: "textured",
+    lightAngle: 135,
+    compare: "flow",
+    curvesOnTop: true,
+  },
+  showing: "first",
+  message: null,
+});

@@ -1,0 +1,203 @@
+/**
+ * The views: what each shows, asks of the core, and lets one choose, as data.
+ */
+
+import { store, type State, type ViewParams } from "./store";
+import type { Choice, Wanted, Whose } from "./worker/protocol";
+
+/** Something that a view lets one set. */
+export interface Setting {
+  key: keyof ViewParams;
+  label: string;
+  /** One of several; a slider's range; neither for a yes or no. */
+  choices?: Choice[];
+  range?: { min: number; max: number; step: number };
+}
+
+export interface View {
+  id: string;
+  label: string;
+  /** One line on how to read it. */
+  hint: string;
+  /** Pictures to ask for; none means the frame itself. */
+  kinds: (params: ViewParams) => string[];
+  settings: (state: Readonly<State>) => Setting[];
+  /** Pixels stand for classes and must not be blended. */
+  crisp?: boolean;
+  /** Curves may lie over it. */
+  curves?: boolean;
+}
+
+const NONE = () => [];
+const ON_TOP: Setting = { key: "curvesOnTop", label: "Curves on top" };
+
+export const VIEWS: View[] = [
+  {
+    id: "curves",
+    label: "Curves",
+    hint: "The frame with its curves. Draw, move and resize them here.",
+    kinds: NONE,
+    settings: NONE,
+    curves: true,
+  },
+  {
+    id: "depth",
+    label: "Depth",
+    hint: "Near is bright, far is dark; hatched where two frames do not tell.",
+    kinds: () => ["depth"],
+    settings: ({ catalogues }) => [
+      { key: "palette", label: "Palette", choices: catalogues?.palettes ?? [] },
+      ON_TOP,
+    ],
+    curves: true,
+  },
+  {
+    id: "motion",
+    label: "Motion",
+    hint: "Where each pixel goes: hue is the direction, strength the distance.",
+    kinds: ({ motion }) => [motion],
+    settings: () => [
+      {
+        key: "motion",
+        label: "As",
+        choices: [
+          { value: "flow", label: "Colours" },
+          { value: "arrows", label: "Arrows" },
+        ],
+      },
+      ON_TOP,
+    ],
+    curves: true,
+  },
+  {
+    id: "anaglyph",
+    label: "Anaglyph",
+    hint: "For coloured glasses, left eye first.",
+    kinds: () => ["anaglyph"],
+    settings: ({ catalogues }) => [
+      { key: "glasses", label: "Glasses", choices: catalogues?.glasses ?? [] },
+      { key: "baseline", label: "Parallax", range: { min: 0, max: 0.1, step: 0.0025 } },
+      { key: "convergence", label: "Convergence", range: { min: 0, max: 1, step: 0.02 } },
+    ],
+  },
+  {
+    id: "relief",
+    label: "Relief",
+    hint: "Turn it by dragging or with the arrow keys; + and − come closer and go away.",
+    kinds: NONE,
+    settings: () => [
+      {
+        key: "material",
+        label: "Surface",
+        choices: [
+          { value: "textured", label: "Frame" },
+          { value: "plaster", label: "Plaster" },
+        ],
+      },
+      { key: "lightAngle", label: "Light", range: { min: 0, max: 360, step: 5 } },
+    ],
+  },
+  {
+    id: "labels",
+    label: "Labels",
+    hint: "Which region each pixel belongs to.",
+    kinds: () => ["labels"],
+    settings: NONE,
+    crisp: true,
+  },
+  {
+    id: "confidence",
+    label: "Confidence",
+    hint: "Bright where depth shows in the image motion, dark where it cannot be told.",
+    kinds: () => ["confidence"],
+    settings: () => [ON_TOP],
+    curves: true,
+  },
+  {
+    id: "occlusion",
+    label: "Occlusion",
+    hint: "In colour: what the second frame hides.",
+    kinds: () => ["occlusion"],
+    settings: () => [ON_TOP],
+    crisp: true,
+    curves: true,
+  },
+  {
+    id: "compare",
+    label: "Compare",
+    hint: "The truth beside what was found, in the same colours.",
+    kinds: ({ compare }) => [compare],
+    settings: () => [
+      {
+        key: "compare",
+        label: "What",
+        choices: [
+          { value: "flow", label: "Motion" },
+          { value: "depth", label: "Depth" },
+          { value: "labels", label: "Labels" },
+          { value: "occlusion", label: "Occlusion" },
+        ],
+      },
+    ],
+  },
+];
+
+/** Frames up to this width are drawn on at twice their resolution. */
+const FINE_WIDTH = 800;
+
+export const viewOf = (id: string): View => VIEWS.find((view) => view.id === id) ?? VIEWS[0]!;
+
+/** The views that the core can draw and that make sense for what is open. */
+export function available({ catalogues, truth }: Readonly<State>): View[] {
+  const known = new Set(catalogues?.views.map(({ kind }) => kind));
+  return VIEWS.filter(({ id, kinds }) => {
+    if (id === "compare") return truth;
+    return kinds(store.state.viewParams).every((kind) => known.has(kind));
+  });
+}
+
+/** Parameters that the core's views take. */
+export function wantedParams({
+  viewParams,
+  scales,
+  width,
+}: Readonly<State>): Record<string, unknown> {
+  const { palette, glasses, baseline, convergence } = viewParams;
+  // Arrows are lines: on a small frame they need finer pixels than the frame's.
+  const magnify = width > 0 && width <= FINE_WIDTH ? 2 : 1;
+  return { scales, palette, glasses, baseline, convergence, magnify };
+}
+
+/** What the worker should send for what is shown. */
+export function wantedBy(state: Readonly<State>): Omit<Wanted, "id"> {
+  const params = wantedParams(state);
+  return {
+    pictures: asks(state).map(([of, kind]) => ({ of, kind, params })),
+    mesh: state.view === "relief" ? params : null,
+  };
+}
+
+/** Whose pictures of which kind are on the stage, in order. */
+export function asks({ view, viewParams }: Readonly<State>): [Whose, string][] {
+  const { kinds } = viewOf(view);
+  return kinds(viewParams).flatMap((kind) =>
+    view === "compare"
+      ? compared(kind).map((of): [Whose, string] => [of, kind])
+      : [["found", kind]],
+  );
+}
+
+/** The baseline finds image motion only. */
+const compared = (kind: string): Whose[] =>
+  kind === "flow" ? ["truth", "found", "horn-schunck"] : ["truth", "found"];
+
+const NAMES: Record<Whose, string> = {
+  truth: "Truth",
+  found: "Found",
+  "horn-schunck": "Horn–Schunck",
+};
+
+/** A name above each picture, where there are several. */
+export function captionsOf(state: Readonly<State>): string[] {
+  return state.view === "compare" ? asks(state).map(([of]) => NAMES[of]) : [];
+}

@@ -1,0 +1,70 @@
+/**
+ * The page's end of the bridge: starts the worker, passes calls on, and puts up a new worker when the
+ * old one broke or does not answer.
+ */
+
+import * as Comlink from "comlink";
+
+import type { Failure, Progress, Service } from "./protocol";
+
+type Listener = {
+  /** Resolves when the progress is on the screen. */
+  progress: (progress: Progress) => Promise<void>;
+  failure: (failure: Failure) => void;
+};
+
+/** Thrown by calls that were under way when their worker was ended. */
+export class Ended extends Error {
+  constructor() {
+    super("the computation was ended");
+    this.name = "Ended";
+  }
+}
+
+export class Client {
+  private worker: Worker | null = null;
+  private service: Comlink.Remote<Service> | null = null;
+  private abandon: (reason: Error) => void = () => {};
+  private ended: Promise<never> = new Promise(() => {});
+
+  constructor(private readonly listener: Listener) {
+    this.start();
+  }
+
+  /** One call; rejects with a sentence, or with `Ended` when the worker was replaced meanwhile. */
+  async call<T>(use: (service: Comlink.Remote<Service>) => Promise<T>): Promise<T> {
+    return Promise.race([use(this.service!), this.ended]);
+  }
+
+  /** Ends the worker, whatever it is doing, and puts up a new one, which knows nothing yet. */
+  restart(): void {
+    this.worker?.terminate();
+    this.abandon(new Ended());
+    this.start();
+  }
+
+  private start(): void {
+    const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
+    this.ended = new Promise((_, reject) => {
+      this.abandon = reject;
+    });
+    this.ended.catch(() => {});
+    worker.addEventListener("error", (event) => {
+      event.preventDefault();
+      const message = event.message || "the worker could not be started";
+      this.abandon(Object.assign(new Error(message), { name: "Panic" }));
+    });
+    this.worker = worker;
+    this.service = Comlink.wrap<Service>(worker);
+    // What a worker that has been replaced still says is heard by nobody.
+    const current = () => this.worker === worker;
+    void this.service.subscribe(
+      Comlink.proxy(async (progress: Progress) => {
+        if (current()) await this.listener.progress(progress);
+      }),
+      Comlink.proxy((failure: Failure) => {
+        if (current()) this.listener.failure(failure);
+      }),
+    );
+  }
+}

@@ -1,0 +1,38 @@
+/** The core, loaded once, with what it offers read from its own lists. */
+
+import init, {
+  limits,
+  optionCatalogue,
+  presetCatalogue,
+  sceneCatalogue,
+  viewCatalogue,
+} from "../../pkg/relievo.js";
+import type { Catalogues } from "./protocol";
+
+export {
+  Frame,
+  hornSchunck,
+  panicMessage,
+  Scene,
+  Solver,
+  type Baseline,
+  type Picture,
+} from "../../pkg/relievo.js";
+
+export async function load(): Promise<void> {
+  await init();
+}
+
+export function catalogues(): Catalogues {
+  const { views, palettes, glasses, colours } = JSON.parse(viewCatalogue());
+  return {
+    options: JSON.parse(optionCatalogue()),
+    presets: JSON.parse(presetCatalogue()),
+    scenes: JSON.parse(sceneCatalogue()),
+    limits: JSON.parse(limits()),
+    views,
+    palettes,
+    glasses,
+    colours,
+  };
+}

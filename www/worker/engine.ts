@@ -1,0 +1,253 @@
+/**
+ * The core's objects behind the page: one pair of frames, one solver on it.
+ *
+ * Nothing here knows the page or the run loop, and nothing computes: it passes on. Whatever is
+ * opened or configured is built anew before the old is let go, so an error leaves things as they were.
+ */
+
+import { Frame, hornSchunck, Scene, Solver, type Baseline, type Picture } from "./core";
+import type {
+  Contour,
+  MeshData,
+  Opened,
+  Part,
+  PictureRequest,
+  Report,
+  ResultFile,
+  ScoreTable,
+  Setup,
+  Source,
+  Status,
+  Whose,
+} from "./protocol";
+
+/** Longest side of a picture sent to the page; more than a screen shows only costs memory. */
+const LONGEST_SIDE = 2048;
+
+interface Owned {
+  first: Frame;
+  second: Frame;
+  scene: Scene | null;
+  /** Made when first asked for. */
+  baseline: Baseline | null;
+}
+
+export class Engine {
+  private owned: Owned | null = null;
+  private solver: Solver | null = null;
+  private setup: Setup | null = null;
+
+  async open(source: Source, keep: Setup | null): Promise<Opened> {
+    const owned = take(source);
+    try {
+      const setup = keep ?? ownSetup(owned);
+      const solver = build(owned, setup);
+      const frames: [ImageBitmap, ImageBitmap] = [
+        await bitmap(owned.first),
+        await bitmap(owned.second),
+      ];
+      this.letGo();
+      this.owned = owned;
+      this.solver = solver;
+      this.setup = setup;
+      const { scene } = owned;
+      return {
+        title: scene?.title ?? "Your own frames",
+        lesson: scene?.lesson ?? "",
+        width: owned.first.width,
+        height: owned.first.height,
+        frames,
+        names: source.kind === "files" ? [source.first.name, source.second.name] : ["", ""],
+        setup,
+        truth: scene !== null,
+      };
+    } catch (error) {
+      free(owned);
+      throw error;
+    }
+  }
+
+  /**
+   * Brings the solver to `setup`, keeping as much of what it has found as the change allows; whether
+   * anything changed at all.
+   */
+  configure(setup: Setup): boolean {
+    const { owned, solver, setup: last } = this.present();
+    const differs = (key: keyof Setup) => JSON.stringify(setup[key]) !== JSON.stringify(last[key]);
+    if (differs("camera")) {
+      const replacement = build(owned, setup);
+      solver.free();
+      this.solver = replacement;
+      this.setup = setup;
+      return true;
+    }
+    const options = differs("options");
+    if (options) {
+      solver.setOptions(JSON.stringify(setup.options));
+      this.setup = { ...last, options: setup.options };
+    }
+    const shapes = differs("shapes");
+    if (shapes) {
+      solver.setCurves(JSON.stringify(setup.shapes));
+      this.setup = setup;
+    }
+    return options || shapes;
+  }
+
+  step(part: Part): Status {
+    const { solver } = this.present();
+    switch (part) {
+      case "all":
+        return solver.step() as Status;
+      case "motion":
+        solver.stepMotion();
+        break;
+      case "depth":
+        solver.stepDepth();
+        break;
+      case "curves":
+        solver.stepCurves();
+        break;
+    }
+    return this.report().status;
+  }
+
+  reset(): void {
+    this.present().solver.reset();
+  }
+
+  report(): Report {
+    return JSON.parse(this.present().solver.report()) as Report;
+  }
+
+  contours(): Contour[] {
+    return JSON.parse(this.present().solver.contours()) as Contour[];
+  }
+
+  async picture({ of, kind, params }: PictureRequest): Promise<ImageBitmap> {
+    const picture = this.drawer(of).view(kind, JSON.stringify(params));
+    try {
+      return await bitmap(picture);
+    } finally {
+      picture.free();
+    }
+  }
+
+  private drawer(of: Whose): { view(kind: string, params: string): Picture } {
+    const { owned, solver } = this.present();
+    switch (of) {
+      case "found":
+        return solver;
+      case "truth":
+        if (!owned.scene) throw new Error("the truth of these frames is not known");
+        return owned.scene;
+      case "horn-schunck":
+        owned.baseline ??= hornSchunck(owned.first, owned.second);
+        return owned.baseline;
+    }
+  }
+
+  mesh(params: Record<string, unknown>): MeshData {
+    const mesh = this.present().solver.mesh(JSON.stringify(params));
+    try {
+      const { positions, normals, uvs, indices } = mesh;
+      return { positions, normals, uvs, indices };
+    } finally {
+      mesh.free();
+    }
+  }
+
+  /** `null` when there is no truth to compare with. */
+  scores(): ScoreTable | null {
+    const { owned, solver } = this.present();
+    if (!owned.scene) return null;
+    return JSON.parse(solver.scores(owned.scene));
+  }
+
+  files(params: Record<string, unknown>): ResultFile[] {
+    return this.present().solver.files(JSON.stringify(params));
+  }
+
+  private present(): { owned: Owned; solver: Solver; setup: Setup } {
+    const { owned, solver, setup } = this;
+    if (!owned || !solver || !setup) {
+      throw new Error("no frames are open; pick a sequence or open two frames");
+    }
+    return { owned, solver, setup };
+  }
+
+  private letGo(): void {
+    this.solver?.free();
+    if (this.owned) free(this.owned);
+    this.solver = null;
+    this.owned = null;
+  }
+}
+
+/** Decodes a file only to look at it. */
+export async function preview(file: {
+  name: string;
+  bytes: Uint8Array<ArrayBuffer>;
+}): Promise<{ width: number; height: number; picture: ImageBitmap }> {
+  const frame = Frame.decode(file.bytes, file.name);
+  try {
+    return { width: frame.width, height: frame.height, picture: await bitmap(frame, 256) };
+  } finally {
+    frame.free();
+  }
+}
+
+function take(source: Source): Owned {
+  if (source.kind === "scene") {
+    const scene = new Scene(source.name, source.width, source.height);
+    return { first: scene.first(), second: scene.second(), scene, baseline: null };
+  }
+  const first = Frame.decode(source.first.bytes, source.first.name);
+  try {
+    const second = Frame.decode(source.second.bytes, source.second.name);
+    return { first, second, scene: null, baseline: null };
+  } catch (error) {
+    first.free();
+    throw error;
+  }
+}
+
+/** A sequence brings camera and curves; other frames get f = width and no curve. */
+function ownSetup({ first, scene }: Owned): Setup {
+  return {
+    camera: scene
+      ? JSON.parse(scene.cameraJson)
+      : { focal: first.width, cx: (first.width - 1) / 2, cy: (first.height - 1) / 2 },
+    shapes: scene ? JSON.parse(scene.shapesJson) : [],
+    options: {},
+  };
+}
+
+function build({ first, second }: Owned, { camera, shapes, options }: Setup): Solver {
+  return new Solver(
+    first,
+    second,
+    JSON.stringify(camera),
+    JSON.stringify(shapes),
+    JSON.stringify(options),
+  );
+}
+
+function free({ first, second, scene, baseline }: Owned): void {
+  first.free();
+  second.free();
+  scene?.free();
+  baseline?.free();
+}
+
+/** A picture made ready to draw off the main thread, no larger than a screen can use. */
+async function bitmap(picture: Picture | Frame, longest = LONGEST_SIDE): Promise<ImageBitmap> {
+  const { width, height } = picture;
+  const data = new ImageData(new Uint8ClampedArray(picture.rgba()), width, height);
+  const factor = Math.min(1, longest / Math.max(width, height));
+  return createImageBitmap(data, {
+    resizeWidth: Math.max(1, Math.round(width * factor)),
+    resizeHeight: Math.max(1, Math.round(height * factor)),
+    resizeQuality: "medium",
+  });
+}

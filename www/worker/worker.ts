@@ -1,0 +1,216 @@
+/**
+ * The worker: runs the solver a step at a time, listens in between, and tells the page what changed.
+ *
+ * Progress is sent only when the page has drawn the last one, so however fast the solver or slow the
+ * screen, there is never more than one on its way.
+ */
+
+import * as Comlink from "comlink";
+
+import { catalogues, load, panicMessage } from "./core";
+import { Engine, preview } from "./engine";
+import type { Failure, PictureRequest, Progress, Service, Setup, Wanted } from "./protocol";
+
+/** Least time between two reliefs: a new triangulation is work for the page. */
+const MESH_INTERVAL_MS = 400;
+
+const engine = new Engine();
+const ready = load();
+
+let running = false;
+let looping = false;
+let look = looked({ id: 0, pictures: [], mesh: null });
+let send: (progress: Progress) => Promise<void> = async () => {};
+let fail: (failure: Failure) => void = () => {};
+
+/** Lets waiting messages in. A message to oneself, since timers are held back to 4 ms. */
+const turn = new MessageChannel();
+const breathe = () =>
+  new Promise<void>((resolve) => {
+    turn.port1.onmessage = () => resolve();
+    turn.port2.postMessage(null);
+  });
+
+/** A broken core is told from bad input by the text its panic left behind. */
+function describe(error: unknown): Failure {
+  const left = panicMessage();
+  if (left || error instanceof WebAssembly.RuntimeError) {
+    return { message: left || String(error), panic: true };
+  }
+  return { message: error instanceof Error ? error.message : String(error), panic: false };
+}
+
+/** Runs `work` once the core is loaded; what it throws reaches the page as a sentence. */
+async function guard<T>(work: () => T | Promise<T>): Promise<T> {
+  try {
+    await ready;
+    return await work();
+  } catch (error) {
+    running = false;
+    const { message, panic } = describe(error);
+    throw Object.assign(new Error(message), { name: panic ? "Panic" : "Error" });
+  }
+}
+
+async function loop(): Promise<void> {
+  if (looping) return;
+  looping = true;
+  try {
+    while (running) {
+      if (engine.step("all") !== "running") running = false;
+      publish();
+      await breathe();
+    }
+  } catch (error) {
+    running = false;
+    fail(describe(error));
+  } finally {
+    looping = false;
+    publish();
+  }
+}
+
+/** What the page looks at, with what it has of that already. */
+interface Look {
+  wanted: Wanted;
+  /** Requests for pictures that no step changes (truth, baseline) and that were sent. */
+  settled: Set<PictureRequest>;
+  mesh: { iterations: number; at: number };
+}
+
+function looked(wanted: Wanted): Look {
+  return { wanted, settled: new Set(), mesh: { iterations: -1, at: -Infinity } };
+}
+
+let inFlight = false;
+let stale = false;
+
+function publish(): void {
+  if (inFlight) {
+    stale = true;
+    return;
+  }
+  inFlight = true;
+  stale = false;
+  progress(look)
+    .then(({ message, transfer }) => send(Comlink.transfer(message, transfer)))
+    .catch((error: unknown) => {
+      running = false;
+      fail(describe(error));
+    })
+    .finally(() => {
+      inFlight = false;
+      if (stale) publish();
+    });
+}
+
+async function progress(to: Look): Promise<{ message: Progress; transfer: Transferable[] }> {
+  const { wanted, settled } = to;
+  const report = engine.report();
+  const contours = engine.contours();
+  const transfer: Transferable[] = [];
+  let mesh: Progress["mesh"] = null;
+  if (wanted.mesh && meshIsDue(to, report.iterations)) {
+    mesh = engine.mesh(wanted.mesh);
+    const { positions, normals, uvs, indices } = mesh;
+    transfer.push(positions.buffer, normals.buffer, uvs.buffer, indices.buffer);
+    to.mesh = { iterations: report.iterations, at: performance.now() };
+  }
+  const scores = engine.scores();
+  const pictures: (ImageBitmap | null)[] = [];
+  for (const request of wanted.pictures) {
+    const picture = settled.has(request) ? null : await engine.picture(request);
+    if (picture) transfer.push(picture);
+    if (request.of !== "found") settled.add(request);
+    pictures.push(picture);
+  }
+  return {
+    message: { id: wanted.id, running, report, contours, pictures, mesh, scores },
+    transfer,
+  };
+}
+
+function meshIsDue({ mesh }: Look, iterations: number): boolean {
+  const rested = !running || performance.now() - mesh.at > MESH_INTERVAL_MS;
+  return rested && mesh.iterations !== iterations;
+}
+
+/** Curves or weights that change leave the pass count alone but not what there is to see. */
+function configure(setup: Setup): void {
+  if (engine.configure(setup)) look.mesh.iterations = -1;
+}
+
+const service: Service = {
+  catalogues: () => guard(catalogues),
+
+  async subscribe(progress, failure) {
+    send = progress;
+    fail = failure;
+  },
+
+  preview: (file) =>
+    guard(async () => {
+      const seen = await preview(file);
+      return Comlink.transfer(seen, [seen.picture]);
+    }),
+
+  open: (source, keep) =>
+    guard(async () => {
+      running = false;
+      const opened = await engine.open(source, keep);
+      return Comlink.transfer(opened, opened.frames);
+    }),
+
+  configure: (setup) =>
+    guard(() => {
+      configure(setup);
+      publish();
+    }),
+
+  look: (wanted) =>
+    guard(() => {
+      look = looked(wanted);
+      publish();
+    }),
+
+  run: (setup) =>
+    guard(() => {
+      configure(setup);
+      if (engine.report().status !== "running") engine.reset();
+      running = true;
+      void loop();
+    }),
+
+  pause: () =>
+    guard(() => {
+      running = false;
+    }),
+
+  step: (setup, part) =>
+    guard(() => {
+      running = false;
+      configure(setup);
+      engine.step(part);
+      publish();
+    }),
+
+  reset: (setup) =>
+    guard(() => {
+      running = false;
+      configure(setup);
+      engine.reset();
+      look = looked(look.wanted);
+      publish();
+    }),
+
+  files: (params) =>
+    guard(() => {
+      const files = engine.files(params);
+      return Comlink.transfer(
+        files,
+        files.map((file) => file.bytes.buffer),
+      );
+    }),
+};
+
+Comlink.expose(service);
