@@ -101,9 +101,9 @@ pub(super) fn stage() -> Stage {
     let centre = |i: usize| parts[i].pose.centre;
     let motions = vec![
         slide(DVec3::ZERO),
-        turn(centre(1), down * 0.018, DVec3::new(-0.008, 0.003, -0.004)),
-        turn(centre(2), down * -0.013, DVec3::new(0.004, 0.003, 0.0)),
-        turn(centre(3), down * 0.02, DVec3::new(-0.006, -0.008, 0.0)),
+        turn(centre(1), down * 0.008, DVec3::new(-0.016, 0.004, -0.006)),
+        turn(centre(2), down * -0.007, DVec3::new(0.012, 0.004, 0.0)),
+        turn(centre(3), down * 0.008, DVec3::new(-0.013, -0.009, 0.0)),
     ];
     Stage {
         parts,
