@@ -8,7 +8,13 @@ export default defineConfig({
   root: here("www"),
   // Relative addresses, so that the built page can be put into any folder of any server.
   base: "./",
-  build: { outDir: here("dist"), emptyOutDir: true, target: "es2022" },
+  build: {
+    outDir: here("dist"),
+    emptyOutDir: true,
+    target: "es2022",
+    // three.js alone is more than the usual limit; it comes only with the relief.
+    chunkSizeWarningLimit: 700,
+  },
   worker: { format: "es" },
   // The WebAssembly lies beside www/, not in it.
   server: { fs: { allow: [here(".")] } },
