@@ -117,7 +117,7 @@ impl Camera {
 }
 
 impl RigidMotion {
-    /// The rotation matrix R(ω) = exp([ω]×).
+    /// The rotation matrix R(ω) = exp(`[ω]×`).
     pub fn matrix(&self) -> DMat3 {
         DMat3::from_quat(DQuat::from_scaled_axis(self.rotation))
     }

@@ -1,6 +1,6 @@
 //! Sequences made by the project itself, with everything about them known.
 //!
-//! Each is a [`stage::Stage`] — solids, solid textures, lamps and rigid motions as data — seen by one
+//! Each is a `stage::Stage` — solids, solid textures, lamps and rigid motions as data — seen by one
 //! ray caster, at any size. Textures have detail at every scale the picture can show.
 
 mod blocks;
