@@ -1,14 +1,24 @@
 // Set-up: says what is missing and installs it. Nothing is done twice, so running it again is cheap.
 // Only what Node itself brings may be imported here: it runs before any npm package is installed.
 
-import { existsSync, readFileSync } from "node:fs";
+import { existsSync, readFileSync, rmSync } from "node:fs";
 import { platform } from "node:os";
 import { join } from "node:path";
 
-import { ask, ifMain, root, run, stage, toolRoot, Trouble } from "./shell.js";
+import { ask, cache, ifMain, root, run, stage, toolRoot, Trouble } from "./shell.js";
 
 const WASM = "wasm32-unknown-unknown";
 const RUSTUP = "curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh -s -- -y";
+
+// Tools that work for a second a day: compiling them fast counts for more than their speed. They share
+// what they have in common.
+const COMPILED_ONCE = {
+  CARGO_TARGET_DIR: join(cache, "compiled"),
+  CARGO_PROFILE_RELEASE_OPT_LEVEL: "1",
+  CARGO_PROFILE_RELEASE_LTO: "off",
+  CARGO_PROFILE_RELEASE_CODEGEN_UNITS: "16",
+  CARGO_PROFILE_RELEASE_DEBUG: "false",
+};
 
 /** Everything that building, serving and testing need, except a browser. */
 export async function setup() {
@@ -18,6 +28,7 @@ export async function setup() {
   await packages();
   await tool("wasm-bindgen-cli", "wasm-bindgen", lockedVersion("wasm-bindgen"));
   await tool("wasm-pack", "wasm-pack", "0.15.1");
+  rmSync(COMPILED_ONCE.CARGO_TARGET_DIR, { recursive: true, force: true });
 }
 
 function checkNode() {
@@ -118,7 +129,11 @@ async function tool(crate, program, version) {
   const present = ask(join(toolRoot, "bin", program), "--version");
   if (present?.split(" ").includes(version)) return;
   await stage(`${crate} ${version}, compiled into ${toolRoot} (some minutes, once)`, () =>
-    run("cargo", ["install", "--locked", "--version", version, "--root", toolRoot, crate]),
+    run(
+      "cargo",
+      ["install", "--locked", "--version", version, "--root", toolRoot, crate],
+      COMPILED_ONCE,
+    ),
   );
 }
 
