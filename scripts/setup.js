@@ -5,7 +5,7 @@ import { existsSync, readFileSync, rmSync } from "node:fs";
 import { platform } from "node:os";
 import { join } from "node:path";
 
-import { ask, cache, ifMain, root, run, stage, toolRoot, Trouble } from "./shell.js";
+import { ask, cache, ifMain, root, run, stage, toolRoot, Trouble, which } from "./shell.js";
 
 const WASM = "wasm32-unknown-unknown";
 const RUSTUP = "curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh -s -- -y";
@@ -51,12 +51,16 @@ async function linker() {
 }
 
 async function rust() {
-  if (ask("rustup", "--version") === null) return rustWithoutRustup();
+  // Found, not asked: any answer of rustup's in here might begin with installing a compiler unannounced.
+  if (which("rustup") === null) return rustWithoutRustup();
   const channel = process.env.RUSTUP_TOOLCHAIN ?? wanted();
   const installed = ask("rustup", "toolchain", "list") ?? "";
   if (!installed.split("\n").some((line) => line.startsWith(channel))) {
     await stage(`Rust ${channel}`, () =>
-      run("rustup", ["toolchain", "install", channel, "--profile", "minimal", "--no-self-update"]),
+      run("rustup", [
+        ...["toolchain", "install", channel, "--profile", "minimal", "--no-self-update"],
+        ...["--target", WASM, "--component", "clippy", "--component", "rustfmt"],
+      ]),
     );
   }
   const targets = ask("rustup", "target", "list", "--installed", "--toolchain", channel) ?? "";
