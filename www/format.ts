@@ -8,6 +8,7 @@ export function number(value: number, digits = 3): string {
   if (value === 0) return "0";
   const size = Math.abs(value);
   if (size < 1e-3 || size >= 1e7) return minus(value.toExponential(Math.max(0, digits - 1)));
+  if (size >= 1e4) return minus(count(Math.round(value)));
   const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
   return minus(value.toFixed(decimals));
 }

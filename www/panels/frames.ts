@@ -116,7 +116,9 @@ function card(side: 0 | 1, state: Readonly<State>, own: boolean): HTMLElement {
     { class: "slot" },
     make("h3", {}, `${title} frame`),
     picture ? thumbnail(picture) : make("div", { class: "empty" }, "missing"),
-    slot ? make("span", { class: "name", title: slot.name }, `${slot.name}${size}`) : null,
+    own
+      ? make("span", { class: "name", title: slot?.name }, slot ? slot.name + size : "\u00a0")
+      : null,
     make(
       "label",
       { class: "pick" },

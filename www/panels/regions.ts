@@ -3,13 +3,13 @@
  * leave open.
  */
 
-import { describe, remove, select } from "../curves";
+import { remove, select } from "../curves";
 import { byId, icon, make } from "../dom";
 import { count, fixed, number, percent } from "../format";
 import { look } from "../session";
 import { addAtCentre } from "../stage/tools";
 import { store, type State } from "../store";
-import type { Region } from "../worker/protocol";
+import type { Region, Shape } from "../worker/protocol";
 
 const KINDS: Record<string, string> = {
   still: "at rest",
@@ -112,7 +112,7 @@ function refresh({ shapes, selected, report, started, frames }: Readonly<State>)
     element.querySelector(".choose")?.setAttribute("aria-pressed", String(chosen));
     const shape = shapes[label - 1];
     const facts = element.querySelector(".facts")!;
-    facts.textContent = region ? facing(region) : shape ? describe(shape) : "everything else";
+    facts.textContent = region ? facing(region) : shape ? briefly(shape) : "everything else";
     const table = element.querySelector<HTMLElement>(".motion")!;
     table.hidden = !region;
     element.querySelector<HTMLElement>(".scale")!.hidden = !region || rows.length < 2;
@@ -133,6 +133,11 @@ function notes(curves: number, started: boolean): string {
     ? "Two frames do not tell how deep one region lies against another: each has a scale of its own, and the sliders set it by eye."
     : "A rough curve that covers part of each moving thing is enough.";
 }
+
+const briefly = (shape: Shape) =>
+  shape.kind === "circle"
+    ? `${Math.round(shape.x)}, ${Math.round(shape.y)} · radius ${Math.round(shape.r)}`
+    : `${shape.points.length} corners`;
 
 const facing = ({ pixels, share, kind }: Region) =>
   `${count(pixels)} px · ${percent(share)} · ${KINDS[kind] ?? kind}`;

@@ -19,9 +19,17 @@ export function mountTransport(): void {
   }
 
   store.watch(
-    ({ running, busy, frames, started }) => [running, busy, frames, started],
-    ({ running, busy, frames, started }) => {
-      main.replaceChildren(icon(running ? "pause" : "run"), running ? "Pause" : "Run");
+    ({ running, busy, frames, started, report }) => [
+      running,
+      busy,
+      frames,
+      started,
+      report?.status,
+    ],
+    ({ running, busy, frames, started, report }) => {
+      const over = started && report !== null && report.status !== "running";
+      const name = running ? "Pause" : over ? "Run again" : "Run";
+      main.replaceChildren(icon(running ? "pause" : "run"), name);
       const idle = frames !== null && busy === null;
       main.disabled = !idle;
       byId<HTMLButtonElement>("step").disabled = !idle || running;

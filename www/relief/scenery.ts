@@ -20,7 +20,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 import type { MeshData } from "../worker/protocol";
 
-const FRONT = new Spherical(3.5, Math.PI / 2 - 0.2, 0.36);
+const FRONT = new Spherical(2.9, Math.PI / 2 - 0.2, 0.36);
 /** How near and far the eye may go; the surface is about two units wide. */
 const NEAREST = 1;
 const FARTHEST = 12;

@@ -1,0 +1,115 @@
+/** For everyone: axe in light and dark, the phone, the keyboard, the theme. */
+
+import AxeBuilder from "@axe-core/playwright";
+import type { Page } from "@playwright/test";
+
+import { chooseView, expect, open, read, runPasses, test } from "./helpers";
+
+async function faults(page: Page): Promise<string[]> {
+  const { violations } = await new AxeBuilder({ page }).analyze();
+  return violations
+    .filter(({ impact }) => impact === "serious" || impact === "critical")
+    .map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.target.join(" ")).join(", ")}`);
+}
+
+for (const colorScheme of ["light", "dark"] as const) {
+  test.describe(colorScheme, () => {
+    test.use({ colorScheme });
+
+    test("axe finds nothing serious, before and after a run, in any view", async ({
+      opened: page,
+    }) => {
+      expect(await faults(page)).toEqual([]);
+      await runPasses(page, 2);
+      await page.getByText("Weights and choices").click();
+      await page.getByText("Principal point").click();
+      expect(await faults(page)).toEqual([]);
+      for (const view of ["Depth", "Anaglyph", "Relief", "Compare"]) {
+        await chooseView(page, view);
+        expect(await faults(page), view).toEqual([]);
+      }
+    });
+
+    test("axe finds nothing serious beside an error", async ({ opened: page }) => {
+      await page.getByLabel("Focal length f, px").fill("0");
+      await page.getByLabel("Focal length f, px").press("Enter");
+      await expect(page.locator("#message")).toBeVisible();
+      expect(await faults(page)).toEqual([]);
+    });
+  });
+}
+
+const brightness = (page: Page) =>
+  page.evaluate(() => {
+    const probe = document.createElement("canvas").getContext("2d")!;
+    probe.fillStyle = getComputedStyle(document.querySelector(".panels")!).backgroundColor;
+    probe.fillRect(0, 0, 1, 1);
+    return probe.getImageData(0, 0, 1, 1).data[0]!;
+  });
+
+test("follows the system's colours until the button says otherwise, and remembers", async ({
+  page,
+}) => {
+  await page.emulateMedia({ colorScheme: "dark" });
+  await open(page);
+  expect(await brightness(page)).toBeLessThan(80);
+  await page.getByRole("button", { name: "Dark colours" }).click();
+  expect(await brightness(page)).toBeGreaterThan(180);
+  await page.reload();
+  expect(await brightness(page)).toBeGreaterThan(180);
+});
+
+test.describe("on a phone", () => {
+  test.use({ viewport: { width: 390, height: 844 }, hasTouch: true });
+
+  test("nothing sticks out, the stage is in the first screen, targets are large", async ({
+    opened: page,
+  }) => {
+    const fits = () => page.evaluate(() => document.documentElement.scrollWidth <= innerWidth);
+    expect(await fits()).toBe(true);
+    const run = (await page.getByRole("button", { name: "Run" }).boundingBox())!;
+    expect(run.y + run.height).toBeLessThan(844);
+    const stage = (await page.locator("#stage").boundingBox())!;
+    expect(stage.width).toBeGreaterThan(380);
+    await page.getByText("Weights and choices").click();
+    await runPasses(page, 1);
+    for (const view of ["Motion", "Anaglyph", "Relief", "Compare", "Curves"]) {
+      await chooseView(page, view);
+      expect(await fits(), view).toBe(true);
+    }
+    const small = await page.evaluate(() =>
+      [...document.querySelectorAll("button, select, input[type=range], .pick, .tools label")]
+        .filter((element) => (element as HTMLElement).checkVisibility())
+        .filter((element) => element.getBoundingClientRect().height < 43.5)
+        .map((element) => element.id || element.className || element.textContent),
+    );
+    expect(small).toEqual([]);
+  });
+});
+
+test("the keyboard reaches everything and always shows where it is", async ({ opened: page }) => {
+  const reached = new Set<string>();
+  for (let i = 0; i < 60; i++) {
+    await page.keyboard.press("Tab");
+    const here = await page.evaluate(() => {
+      const element = document.activeElement!;
+      if (element === document.body) return { id: "", ringed: false };
+      const label = element.closest("label");
+      const ringed = [element, element.nextElementSibling, label].some(
+        (one) => one && getComputedStyle(one).outlineStyle !== "none",
+      );
+      return {
+        id: element.id || element.getAttribute("name") || element.textContent!.trim(),
+        ringed,
+      };
+    });
+    if (here.id) {
+      expect(here.ringed, here.id).toBe(true);
+      reached.add(here.id);
+    }
+  }
+  for (const id of ["scene", "theme", "view-curves", "overlay", "run", "step", "focal", "file-0"]) {
+    expect([...reached], id).toContain(id);
+  }
+  expect(await read(page, (state) => state.message)).toBeNull();
+});

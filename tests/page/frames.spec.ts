@@ -1,0 +1,200 @@
+/** Frames of one's own: by picker, drop and paste; and what is said when they are no good. */
+
+import type { Page } from "@playwright/test";
+
+import { expect, framesOf, look, plainPng, png, read, runPasses, test, until } from "./helpers";
+
+const first = (page: Page) => page.locator("#file-0");
+const second = (page: Page) => page.locator("#file-1");
+const message = (page: Page) => page.locator("#message");
+
+/** What must survive whatever was wrong with the input. */
+const kept = (page: Page) =>
+  read(page, ({ source, shapes, width, height, frames }) => ({
+    name: source?.kind === "scene" ? source.name : "own",
+    shapes,
+    width,
+    height,
+    drawn: frames !== null && frames[0].width > 0,
+  }));
+
+const ownAreOpen = (page: Page) =>
+  until(page, (state) => state.source?.kind === "files" && state.busy === null);
+
+test("two frames are picked, first and second, and run", async ({ opened: page }) => {
+  const [one, two] = await framesOf(page, "squares");
+  await first(page).setInputFiles(png("left.png", one));
+  await expect(page.locator("#slots-note")).toContainText("second frame is still missing");
+  expect((await kept(page)).name).toBe("squares");
+  await second(page).setInputFiles(png("right.png", two));
+  await ownAreOpen(page);
+  expect(await read(page, (state) => state.shapes)).toEqual([]);
+  expect(await read(page, (state) => state.camera.focal)).toBe((await kept(page)).width);
+  await expect(page.locator("#scores-panel")).toBeHidden();
+  await page.getByRole("button", { name: "Add a circle" }).click();
+  await runPasses(page, 2);
+  expect(await read(page, (state) => state.report!.regions.length)).toBe(2);
+});
+
+test("two at once are ordered by name, and swapped on demand", async ({ opened: page }) => {
+  const [one, two] = await framesOf(page, "squares");
+  const before = await look(page);
+  await first(page).setInputFiles([png("frame10.png", two), png("frame9.png", one)]);
+  await ownAreOpen(page);
+  expect(await read(page, (state) => state.names)).toEqual(["frame9.png", "frame10.png"]);
+  // Without the curves that were drawn: compare the pictures alone.
+  const opened = await look(page);
+  expect(opened.print).toBe(before.print);
+  await page.getByRole("button", { name: "Swap the two frames" }).click();
+  await until(page, (state) => state.names[0] === "frame10.png" && state.busy === null);
+  expect((await look(page)).print).not.toBe(opened.print);
+});
+
+test("frames are dropped on the page", async ({ opened: page }) => {
+  const [one, two] = await framesOf(page, "squares");
+  const files = [one, two].map((buffer, i) => ({
+    name: `f${i}.png`,
+    text: buffer.toString("base64"),
+  }));
+  await page.evaluate((files) => {
+    const data = new DataTransfer();
+    for (const { name, text } of files) {
+      const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+      data.items.add(new File([bytes], name, { type: "image/png" }));
+    }
+    const event = (type: string) =>
+      document.body.dispatchEvent(
+        new DragEvent(type, { dataTransfer: data, bubbles: true, cancelable: true, clientX: 300 }),
+      );
+    event("dragover");
+    event("drop");
+  }, files);
+  await ownAreOpen(page);
+  expect(await read(page, (state) => state.names)).toEqual(["f0.png", "f1.png"]);
+  await expect(page.locator("#dropzone")).toBeHidden();
+});
+
+test("frames are pasted, one after the other", async ({ opened: page }) => {
+  const [one, two] = await framesOf(page, "squares");
+  const paste = (buffer: Buffer, name: string) =>
+    page.evaluate(
+      ({ text, name }) => {
+        const data = new DataTransfer();
+        const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+        data.items.add(new File([bytes], name, { type: "image/png" }));
+        document.body.dispatchEvent(
+          new ClipboardEvent("paste", { clipboardData: data, bubbles: true, cancelable: true }),
+        );
+      },
+      { text: buffer.toString("base64"), name },
+    );
+  await paste(one, "a.png");
+  await until(page, (state) => state.slots[0] !== null);
+  await paste(two, "b.png");
+  await ownAreOpen(page);
+  expect(await read(page, (state) => state.names)).toEqual(["a.png", "b.png"]);
+});
+
+test.describe("bad input gets a sentence and changes nothing", () => {
+  const cases: {
+    name: string;
+    says: RegExp;
+    files: (page: Page) => Promise<[Buffer, Buffer]>;
+  }[] = [
+    {
+      name: "frames of different sizes",
+      says: /differ in size.*64×48.*80×48/,
+      files: async (page) => [
+        await plainPng(page, 64, 48, true),
+        await plainPng(page, 80, 48, true),
+      ],
+    },
+    {
+      name: "the same frame twice",
+      says: /identical/,
+      files: async (page) => [
+        await plainPng(page, 64, 48, true),
+        await plainPng(page, 64, 48, true),
+      ],
+    },
+    {
+      name: "a frame without contrast",
+      says: /same grey everywhere/,
+      files: async (page) => [await plainPng(page, 64, 48), await plainPng(page, 64, 48, true)],
+    },
+    {
+      name: "a frame too small",
+      says: /8×8 pixels/,
+      files: async (page) => [await plainPng(page, 8, 8, true), await plainPng(page, 8, 8)],
+    },
+    {
+      name: "no image",
+      says: /cannot be read as an image/,
+      files: async (page) => [Buffer.from("Once upon a time"), await plainPng(page, 64, 48)],
+    },
+    {
+      name: "a truncated file",
+      says: /cannot be read as an image/,
+      files: async (page) => {
+        const whole = await plainPng(page, 64, 48, true);
+        return [whole.subarray(0, whole.length / 2), whole];
+      },
+    },
+    {
+      name: "an empty file",
+      says: /cannot be read as an image/,
+      files: async (page) => [Buffer.alloc(0), await plainPng(page, 64, 48)],
+    },
+  ];
+  for (const { name, says, files } of cases) {
+    test(name, async ({ opened: page }) => {
+      await runPasses(page, 1);
+      const before = await kept(page);
+      const energy = await read(page, (state) => state.report!.energy.total);
+      const [one, two] = await files(page);
+      await first(page).setInputFiles([png("a.png", one), png("b.png", two)]);
+      await expect(message(page)).toContainText(says, { timeout: 60_000 });
+      await until(page, (state) => state.busy === null);
+      expect(await kept(page)).toEqual(before);
+      expect(await read(page, (state) => state.report!.energy.total)).toBe(energy);
+      await page.getByRole("button", { name: "Dismiss this message" }).click();
+      await expect(message(page)).toBeHidden();
+      await page.getByRole("button", { name: "Step" }).click();
+      await until(page, (state) => state.report!.iterations >= 2);
+    });
+  }
+});
+
+test("one frame only is said, kept waiting, and can be discarded", async ({ opened: page }) => {
+  const [one] = await framesOf(page, "squares");
+  await second(page).setInputFiles(png("late.png", one));
+  await expect(page.locator("#slots-note")).toContainText("first frame is still missing");
+  await runPasses(page, 1);
+  await page.getByRole("button", { name: "Discard" }).click();
+  expect(await read(page, (state) => state.slots)).toEqual([null, null]);
+});
+
+test("a focal length no camera has is refused and can be corrected", async ({ opened: page }) => {
+  const field = page.getByLabel("Focal length f, px");
+  const good = await field.inputValue();
+  await field.fill("-5");
+  await field.press("Enter");
+  await expect(message(page)).toContainText("focal length is -5");
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => !state.running);
+  expect(await read(page, (state) => state.shapes.length)).toBe(2);
+  await field.fill(good);
+  await field.press("Enter");
+  await runPasses(page, 1);
+  await expect(message(page)).toBeHidden();
+});
+
+test("focal length and field of view go together", async ({ opened: page }) => {
+  const width = await read(page, (state) => state.width);
+  await page.getByLabel("Field of view, °").fill("90");
+  await page.getByLabel("Field of view, °").press("Enter");
+  await until(page, (state) => Math.abs(state.camera.focal - state.width / 2) < 0.01);
+  await page.getByLabel("Focal length f, px").fill(String(width));
+  await page.getByLabel("Focal length f, px").press("Enter");
+  await expect(page.getByLabel("Field of view, °")).toHaveValue("53.1");
+});

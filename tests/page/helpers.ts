@@ -1,0 +1,177 @@
+/** What the page tests share: opening the page, reading its state and its pixels, making frames. */
+
+import { test as base, expect, type Page } from "@playwright/test";
+
+import type { State } from "../../www/store";
+
+/** The machine may be slow and shared: wait for what must happen, not for how fast. */
+export const PATIENCE = 120_000;
+
+export const test = base.extend<{ opened: Page; patient: void }>({
+  patient: [
+    async ({}, use, info) => {
+      info.setTimeout(3 * PATIENCE);
+      await use();
+    },
+    { auto: true },
+  ],
+  opened: async ({ page }, use) => {
+    const broken: string[] = [];
+    page.on("pageerror", (error) => broken.push(error.message));
+    await open(page);
+    await use(page);
+    expect(broken, "errors nobody caught").toEqual([]);
+  },
+});
+
+export { expect };
+
+export async function open(page: Page): Promise<void> {
+  await page.goto("./");
+  await ready(page);
+}
+
+export async function ready(page: Page): Promise<void> {
+  await until(page, (state) => state.frames !== null && state.busy === null);
+}
+
+/** Reads from the page's state; the function runs in the page and must stand alone. */
+export function read<T>(page: Page, select: (state: State) => T): Promise<T> {
+  return page.evaluate(`(${select})(window.relievo)`) as Promise<T>;
+}
+
+export async function until(page: Page, holds: (state: State) => boolean): Promise<void> {
+  await page.waitForFunction(`(${holds})(window.relievo)`, undefined, { timeout: PATIENCE });
+}
+
+export const passes = (page: Page): Promise<number> =>
+  read(page, (state) => state.report?.iterations ?? 0);
+
+/** Runs until at least `count` passes are made, then pauses. */
+export async function runPasses(page: Page, count: number): Promise<void> {
+  await page.getByRole("button", { name: "Run" }).click();
+  await page.waitForFunction(
+    (least) => {
+      const { report, running } = (window as unknown as { relievo: State }).relievo;
+      return (report?.iterations ?? 0) >= least || (!running && (report?.iterations ?? 0) > 0);
+    },
+    count,
+    { timeout: PATIENCE },
+  );
+  const pause = page.getByRole("button", { name: "Pause" });
+  if (await pause.isVisible()) await pause.click();
+  await until(page, (state) => !state.running);
+}
+
+export async function chooseView(page: Page, name: string): Promise<void> {
+  await page.getByRole("radio", { name, exact: true }).check({ force: true });
+  await drawn(page);
+}
+
+/** Resolves when everything asked of the screen so far is on it. */
+export async function drawn(page: Page): Promise<void> {
+  await page.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+  );
+}
+
+export interface Look {
+  /** Changes when any pixel does. */
+  print: number;
+  /** How many different colours, coarsely. */
+  colours: number;
+}
+
+/** What a canvas shows. */
+export async function look(page: Page, canvas = "#picture"): Promise<Look> {
+  await drawn(page);
+  return page.locator(canvas).evaluate((element) => {
+    const source = element as HTMLCanvasElement;
+    const copy = document.createElement("canvas");
+    copy.width = source.width;
+    copy.height = source.height;
+    const context = copy.getContext("2d")!;
+    context.drawImage(source, 0, 0);
+    const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    let print = 0;
+    const seen = new Set<number>();
+    for (let i = 0; i < data.length; i += 4) {
+      const colour = (data[i]! << 16) | (data[i + 1]! << 8) | data[i + 2]!;
+      print = (Math.imul(print, 31) + colour + data[i + 3]!) | 0;
+      if (data[i + 3]! > 0) seen.add(colour & 0xf0f0f0);
+    }
+    return { print, colours: seen.size };
+  });
+}
+
+/** Where a pixel of the frame lies on the screen. */
+export async function onScreen(
+  page: Page,
+  x: number,
+  y: number,
+): Promise<{ x: number; y: number }> {
+  return page.evaluate(
+    ([x, y]) => {
+      const { width, height } = (window as unknown as { relievo: State }).relievo;
+      const box = document.getElementById("overlay")!.getBoundingClientRect();
+      // The frame is centred and as large as margins of at most 16 px leave room.
+      const margin = Math.min(16, box.width / 40);
+      const scale = Math.min((box.width - 2 * margin) / width, (box.height - 2 * margin) / height);
+      return {
+        x: box.left + (box.width - width * scale) / 2 + (x! + 0.5) * scale,
+        y: box.top + (box.height - height * scale) / 2 + (y! + 0.5) * scale,
+      };
+    },
+    [x, y],
+  );
+}
+
+/** A built-in sequence's frames as PNG files, as if they were someone's own. */
+export async function framesOf(page: Page, scene: string): Promise<[Buffer, Buffer]> {
+  await page.getByLabel("Sequence").selectOption(scene);
+  await page.waitForFunction(
+    (name) => {
+      const { source, busy } = (window as unknown as { relievo: State }).relievo;
+      return source?.kind === "scene" && source.name === name && busy === null;
+    },
+    scene,
+    { timeout: PATIENCE },
+  );
+  const pictures = await page.evaluate(() => {
+    const { frames } = (window as unknown as { relievo: State }).relievo;
+    return frames!.map((frame) => {
+      const canvas = document.createElement("canvas");
+      canvas.width = frame.width;
+      canvas.height = frame.height;
+      canvas.getContext("2d")!.drawImage(frame, 0, 0);
+      return canvas.toDataURL("image/png").split(",")[1]!;
+    });
+  });
+  return pictures.map((text) => Buffer.from(text, "base64")) as [Buffer, Buffer];
+}
+
+/** A PNG of one colour, or of stripes. */
+export async function plainPng(
+  page: Page,
+  width: number,
+  height: number,
+  stripes = false,
+): Promise<Buffer> {
+  const text = await page.evaluate(
+    ({ width, height, stripes }) => {
+      const canvas = document.createElement("canvas");
+      canvas.width = width;
+      canvas.height = height;
+      const context = canvas.getContext("2d")!;
+      context.fillStyle = "#777";
+      context.fillRect(0, 0, width, height);
+      context.fillStyle = "#ccc";
+      for (let x = 0; stripes && x < width; x += 8) context.fillRect(x, 0, 4, height);
+      return canvas.toDataURL("image/png").split(",")[1]!;
+    },
+    { width, height, stripes },
+  );
+  return Buffer.from(text, "base64");
+}
+
+export const png = (name: string, buffer: Buffer) => ({ name, mimeType: "image/png", buffer });

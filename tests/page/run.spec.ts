@@ -1,0 +1,113 @@
+/** Running: energy falls, curves crawl, and every button does what it says. */
+
+import { expect, look, passes, read, runPasses, test, until } from "./helpers";
+
+test("a run makes the energy fall and the curves move on the frame", async ({ opened: page }) => {
+  const before = await look(page);
+  await runPasses(page, 6);
+  const history = await read(page, (state) => state.report!.history);
+  expect(history.length).toBeGreaterThan(3);
+  expect(history.at(-1)!).toBeLessThan(history[0]!);
+  expect(await read(page, (state) => state.contours.length)).toBeGreaterThan(1);
+  expect((await look(page)).print).not.toBe(before.print);
+  await expect(page.locator("#energy-panel")).toBeVisible();
+  await expect(page.locator("#energy-text")).toContainText("From");
+  expect((await look(page, "#energy-plot canvas")).colours).toBeGreaterThan(1);
+});
+
+test("pictures change while it runs", async ({ opened: page }) => {
+  await page.getByRole("button", { name: "Run" }).click();
+  const prints = new Set<number>();
+  await expect
+    .poll(async () => prints.add((await look(page)).print).size, { timeout: 60_000 })
+    .toBeGreaterThan(3);
+});
+
+test("pausing holds, running goes on from there", async ({ opened: page }) => {
+  await runPasses(page, 2);
+  const held = await passes(page);
+  const energy = await read(page, (state) => state.report!.energy.total);
+  await expect(page.locator("#status")).toContainText(/Paused|Converged/);
+  await page.getByRole("button", { name: "Step" }).click();
+  await until(page, (state) => state.report!.iterations >= 3);
+  expect(await passes(page)).toBe(held + 1);
+  expect(await read(page, (state) => state.report!.energy.total)).not.toBe(energy);
+});
+
+test("each part of a pass can be taken by itself", async ({ opened: page }) => {
+  const motion = () => read(page, (state) => JSON.stringify(state.report?.regions));
+  await page.getByRole("button", { name: "Motion", exact: true }).click();
+  await expect.poll(motion, { timeout: 30_000 }).toMatch(/[1-9]/);
+  await until(page, (state) => (state.report?.seconds.motion ?? 0) > 0);
+  expect(await read(page, (state) => state.report!.seconds.depth)).toBe(0);
+  await page.getByRole("button", { name: "Depth", exact: true }).click();
+  await until(page, (state) => state.report!.seconds.depth > 0);
+  expect(await read(page, (state) => state.report!.seconds.curves)).toBe(0);
+  await page.getByRole("button", { name: "Curves", exact: true }).click();
+  await until(page, (state) => state.report!.seconds.curves > 0);
+  expect(await passes(page)).toBe(0);
+});
+
+test("reset goes back to the drawn curves, and running again starts over", async ({
+  opened: page,
+}) => {
+  const before = await look(page);
+  await runPasses(page, 3);
+  expect((await look(page)).print).not.toBe(before.print);
+  await page.getByRole("button", { name: "Reset" }).click();
+  await until(page, (state) => !state.started && state.report?.iterations === 0);
+  expect((await look(page)).print).toBe(before.print);
+  await expect(page.locator("#energy-panel")).toBeHidden();
+  await runPasses(page, 1);
+  expect(await passes(page)).toBeGreaterThan(0);
+});
+
+test("runs to an end by itself and says which", async ({ opened: page }) => {
+  await page.getByLabel("Sequence").selectOption("squares");
+  await until(
+    page,
+    (state) => (state.source as { name?: string }).name === "squares" && !state.busy,
+  );
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => state.report !== null && state.report.status !== "running");
+  await expect(page.locator("#status")).toContainText(/Converged|Out of iterations/);
+  await expect(page.getByRole("button", { name: "Run" })).toBeVisible();
+  await expect(page.locator("#announcer")).toContainText(/passes/);
+});
+
+test("numbers stand beside each region, and scores where the truth is known", async ({
+  opened: page,
+}) => {
+  await runPasses(page, 3);
+  const curve = page.locator("#regions > li").nth(1);
+  await expect(curve).toContainText("px");
+  await expect(curve.locator("[data-number]")).toHaveCount(6);
+  for (const cell of await curve.locator("[data-number]").allTextContents()) {
+    expect(cell).toMatch(/^−?\d+\.\d+$/);
+  }
+  const scores = page.locator("#scores");
+  await expect(scores).toBeVisible();
+  await expect(scores).toContainText("Horn–Schunck");
+  await expect(scores.getByRole("row", { name: /AEE/ })).toContainText(/\d\.\d+ px.*\d\.\d+ px/);
+  await expect(scores.getByRole("row", { name: /Labels wrong/ })).toContainText("%");
+});
+
+test("a weight can be changed while it runs", async ({ opened: page }) => {
+  await page.getByText("Weights and choices").click();
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+  await page.getByLabel("Diffusion").selectOption("isotropic");
+  await until(page, (state) => state.options["diffusion"] === "isotropic");
+  const then = await passes(page);
+  await page.waitForFunction(
+    (least) => {
+      const { report } = (
+        window as unknown as { relievo: { report: { iterations: number; status: string } } }
+      ).relievo;
+      return report.iterations > least || report.status !== "running";
+    },
+    then,
+    { timeout: 60_000 },
+  );
+  await expect(page.locator("#message")).toBeHidden();
+});

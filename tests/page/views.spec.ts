@@ -1,0 +1,129 @@
+/** Every view draws a picture, and one of its own. */
+
+import { chooseView, drawn, expect, look, read, runPasses, test, until } from "./helpers";
+
+const FLAT = ["Depth", "Motion", "Anaglyph", "Labels", "Confidence", "Occlusion", "Compare"];
+
+test("each view shows something, and something else than the others", async ({ opened: page }) => {
+  await runPasses(page, 4);
+  const prints = new Map<number, string>();
+  for (const name of ["Curves", ...FLAT]) {
+    await chooseView(page, name);
+    await expect
+      .poll(async () => (await look(page)).colours, { message: name, timeout: 30_000 })
+      .toBeGreaterThan(2);
+    const { print } = await look(page);
+    expect(prints.get(print), `${name} looks like another`).toBeUndefined();
+    prints.set(print, name);
+  }
+});
+
+test("a view's own choices change its picture", async ({ opened: page }) => {
+  await runPasses(page, 4);
+  const changes: [string, string][] = [
+    ["Depth", "#setting-palette"],
+    ["Motion", "#setting-motion"],
+    ["Anaglyph", "#setting-glasses"],
+    ["Compare", "#setting-compare"],
+  ];
+  for (const [view, select] of changes) {
+    await chooseView(page, view);
+    await until(page, (state) => state.pictures.length > 0 && state.pictures.every(Boolean));
+    const { print } = await look(page);
+    await page.locator(select).selectOption({ index: 1 });
+    await expect
+      .poll(async () => (await look(page)).print, { message: view, timeout: 30_000 })
+      .not.toBe(print);
+  }
+});
+
+test("parallax and convergence change the anaglyph", async ({ opened: page }) => {
+  await runPasses(page, 4);
+  await chooseView(page, "Anaglyph");
+  await until(page, (state) => state.pictures.length > 0 && state.pictures.every(Boolean));
+  for (const name of ["Parallax", "Convergence"]) {
+    const { print } = await look(page);
+    await page.getByRole("slider", { name }).focus();
+    await page.keyboard.press("End");
+    await expect
+      .poll(async () => (await look(page)).print, { message: name, timeout: 30_000 })
+      .not.toBe(print);
+  }
+});
+
+test("the truth, the found and Horn–Schunck stand side by side", async ({ opened: page }) => {
+  await runPasses(page, 2);
+  await chooseView(page, "Compare");
+  await expect(page.locator("#captions span")).toHaveText(["Truth", "Found", "Horn–Schunck"]);
+});
+
+test("the depth slider of a region changes depth, not its outline", async ({ opened: page }) => {
+  await runPasses(page, 3);
+  await chooseView(page, "Labels");
+  await until(page, (state) => state.pictures.every(Boolean) && state.pictures.length === 1);
+  const labels = await look(page);
+  await chooseView(page, "Depth");
+  await until(page, (state) => state.pictures.every(Boolean) && state.pictures.length === 1);
+  await drawn(page);
+  const depth = await look(page);
+  await page.locator("#scale-1").fill("1.5");
+  await expect
+    .poll(async () => (await look(page)).print, { timeout: 30_000 })
+    .not.toBe(depth.print);
+  await chooseView(page, "Labels");
+  await expect.poll(async () => (await look(page)).print, { timeout: 30_000 }).toBe(labels.print);
+});
+
+test("the relief stands, turns by keyboard and mouse, and takes plaster", async ({
+  opened: page,
+}) => {
+  await runPasses(page, 4);
+  await chooseView(page, "Relief");
+  const canvas = page.locator("#relief canvas");
+  await expect(canvas).toBeVisible({ timeout: 60_000 });
+  const seen = () => look(page, "#relief canvas");
+  await expect.poll(async () => (await seen()).colours, { timeout: 60_000 }).toBeGreaterThan(8);
+  let last = (await seen()).print;
+  const changed = async (what: string) => {
+    await expect
+      .poll(async () => (await seen()).print, { message: what, timeout: 30_000 })
+      .not.toBe(last);
+    last = (await seen()).print;
+  };
+  await canvas.focus();
+  await page.keyboard.press("ArrowRight");
+  await changed("arrow key");
+  await page.keyboard.press("+");
+  await changed("plus");
+  const box = (await canvas.boundingBox())!;
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 + 80, box.y + box.height / 2 + 20, { steps: 4 });
+  await page.mouse.up();
+  await changed("drag");
+  await page.getByLabel("Surface").selectOption("plaster");
+  await changed("plaster");
+  await page.getByRole("slider", { name: "Light" }).fill("300");
+  await changed("light");
+});
+
+test("the view and the results can be taken away", async ({ opened: page }) => {
+  await runPasses(page, 2);
+  const [picture] = await Promise.all([
+    page.waitForEvent("download"),
+    page.getByRole("button", { name: "This view as PNG" }).click(),
+  ]);
+  expect(picture.suggestedFilename()).toBe("relievo-blocks-curves.png");
+  await page.getByRole("button", { name: "Result files" }).click();
+  const links = page.locator("#files a");
+  await expect(links.first()).toBeVisible({ timeout: 30_000 });
+  const names = await links.evaluateAll((all) => all.map((a) => (a as HTMLAnchorElement).download));
+  expect(names).toEqual(
+    expect.arrayContaining(["labels.png", "depth.pfm", "flow.flo", "motion.json"]),
+  );
+  const address = await links
+    .filter({ hasText: "motion.json" })
+    .evaluate((a) => (a as HTMLAnchorElement).href);
+  const motion = await page.evaluate(async (url) => (await fetch(url)).json(), address);
+  expect(motion.regions).toHaveLength(await read(page, (state) => state.shapes.length + 1));
+});
