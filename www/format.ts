@@ -22,15 +22,20 @@ export function fixed(value: number, decimals: number): string {
 
 /** A share between 0 and 1 in percent. */
 export function percent(share: number, decimals = 1): string {
-  return `${fixed(100 * share, decimals)} %`;
+  return `${fixed(100 * share, decimals)}\u202f%`;
 }
 
 /** Whole numbers in groups of three. */
 export function count(value: number): string {
-  return value.toLocaleString("en").replaceAll(",", " ");
+  return value.toLocaleString("en").replaceAll(",", "\u202f");
 }
 
 /** Seconds, coarse enough not to flicker. */
 export function seconds(value: number): string {
   return value < 10 ? `${fixed(value, 1)} s` : `${fixed(value, 0)} s`;
+}
+
+/** For axes: 1.5M. */
+export function compact(value: number): string {
+  return minus(value.toLocaleString("en", { notation: "compact", maximumSignificantDigits: 3 }));
 }

@@ -50,7 +50,7 @@ export function openScene(name: string): Promise<boolean> {
 export function open(source: Source, phrase: string): Promise<boolean> {
   return attempt(phrase, async () => {
     const opened = await client.call((service) => service.open(source, null));
-    asked += 1; // What the old pair still sends is no longer wanted.
+    forgetAsked();
     adopt(source, opened);
     await look();
     announce(`${opened.title} is open, ${opened.width} by ${opened.height} pixels.`);
@@ -78,6 +78,7 @@ function adopt(source: Source, opened: Opened): void {
     report: null,
     contours: [],
     pictures: [],
+    pictured: "",
     scores: null,
     scales: [],
     showing: "first",
@@ -103,10 +104,9 @@ export async function run(): Promise<void> {
   if (!ok) store.update({ running: false });
 }
 
+/** The worker finishes the step it is in; the progress after it says that it has stopped. */
 export async function pause(): Promise<void> {
   await attempt(null, () => client.call((service) => service.pause()));
-  store.update({ running: false });
-  announce("Paused.");
 }
 
 export function step(part: Part): Promise<boolean> {
@@ -134,11 +134,25 @@ export async function cancel(): Promise<void> {
 
 /** Counts what was asked for, so that answers to earlier questions can be told. */
 let asked = 0;
+let answered = 0;
+let lookAgain = false;
 
-/** Tells the worker what the page is looking at. */
+/** Tells the worker what the page is looking at: the latest only, once the last was answered. */
 export async function look(): Promise<void> {
   if (!store.state.source) return;
-  await attempt(null, () => client.call((service) => service.look(want())));
+  if (asked !== answered) {
+    lookAgain = true;
+    return;
+  }
+  const sent = await attempt(null, () => client.call((service) => service.look(want())));
+  if (!sent) answered = asked;
+}
+
+/** Whatever is still on its way is no longer wanted. */
+function forgetAsked(): void {
+  asked += 1;
+  answered = asked;
+  lookAgain = false;
 }
 
 function want(): Wanted {
@@ -219,6 +233,7 @@ async function recover(): Promise<void> {
   recovering = true;
   try {
     client.restart();
+    forgetAsked();
     const { source } = store.state;
     store.update({ running: false, started: false, report: null, contours: [], scores: null });
     if (!source) return;
@@ -245,6 +260,7 @@ async function show(progress: Progress): Promise<void> {
     progress.pictures.forEach((picture) => picture?.close());
     return;
   }
+  answered = asked;
   const pictures = progress.pictures.map((picture, i) => picture ?? state.pictures[i] ?? null);
   for (const [i, old] of state.pictures.entries()) if (old && pictures[i] !== old) old.close();
   const finished = state.running && !progress.running;
@@ -253,10 +269,15 @@ async function show(progress: Progress): Promise<void> {
     report: progress.report,
     contours: progress.contours,
     pictures,
+    pictured: progress.view,
     scores: progress.scores,
   });
   if (progress.mesh) meshListener(progress.mesh);
   if (finished) announce(ending(progress));
+  if (lookAgain) {
+    lookAgain = false;
+    void look();
+  }
   if (!document.hidden) await new Promise((drawn) => requestAnimationFrame(drawn));
 }
 

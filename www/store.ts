@@ -70,8 +70,9 @@ export interface State {
   started: boolean;
   report: Report | null;
   contours: Contour[];
-  /** Pictures of the present view. */
+  /** Pictures for a view, and which view that is: it may lag behind the one chosen. */
   pictures: (ImageBitmap | null)[];
+  pictured: string;
   scores: ScoreTable | null;
   /** Depth factor of each region: two frames do not tell it. */
   scales: number[];
@@ -138,6 +139,7 @@ export const store = new Store({
   report: null,
   contours: [],
   pictures: [],
+  pictured: "",
   scores: null,
   scales: [],
   tool: "select",

@@ -172,6 +172,7 @@ export function wantedParams({
 export function wantedBy(state: Readonly<State>): Omit<Wanted, "id"> {
   const params = wantedParams(state);
   return {
+    view: state.view,
     pictures: asks(state).map(([of, kind]) => ({ of, kind, params })),
     mesh: state.view === "relief" ? params : null,
   };

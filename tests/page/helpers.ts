@@ -65,6 +65,10 @@ export async function runPasses(page: Page, count: number): Promise<void> {
 
 export async function chooseView(page: Page, name: string): Promise<void> {
   await page.getByRole("radio", { name, exact: true }).check({ force: true });
+  await until(
+    page,
+    ({ view, pictured, pictures }) => pictured === view && pictures.every((one) => one !== null),
+  );
   await drawn(page);
 }
 

@@ -63,8 +63,8 @@ test("a hang can be cancelled", async ({ page }) => {
   await page.getByRole("button", { name: "Run" }).click();
   await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
   // Pausing asks a worker that no longer listens; the page itself must still answer.
-  await chooseView(page, "Depth");
-  await expect(page.getByRole("radio", { name: "Depth" })).toBeChecked();
+  await page.getByRole("radio", { name: "Depth", exact: true }).check({ force: true });
+  await expect(page.locator("#hint")).toContainText("hatched");
   await page.getByRole("button", { name: "Cancel" }).click();
   await until(page, (state) => !state.running && state.busy === null && !state.started);
   expect(await read(page, (state) => state.shapes.length)).toBe(2);

@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 
 import { byId, themeColour } from "../dom";
-import { number } from "../format";
+import { compact, number, percent } from "../format";
 import { store, type State } from "../store";
 
 const HEIGHT = 150;
@@ -55,7 +55,7 @@ export function rebuild(): void {
       },
       axes: [
         { stroke: soft, grid, font, size: 28, ticks: { show: false }, incrs: WHOLE },
-        { stroke: soft, grid, font, size: 58, ticks: { show: false }, values: labels },
+        { stroke: soft, grid, font, size: 48, ticks: { show: false }, values: labels },
       ],
       series: [
         { label: "Pass" },
@@ -76,7 +76,7 @@ export function rebuild(): void {
 const WHOLE = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 
 const labels = (_: uPlot, values: (number | null)[]) =>
-  values.map((value) => (value === null ? "" : number(value, 2)));
+  values.map((value) => (value === null ? "" : compact(value)));
 
 function dataOf({ report }: Readonly<State>): uPlot.AlignedData {
   const history = report?.history ?? [];
@@ -87,6 +87,6 @@ function inWords({ report }: Readonly<State>): string {
   if (!report) return "";
   const { data, smoothness, length, total } = report.energy;
   const first = report.history[0] ?? total;
-  const part = (value: number) => `${Math.round((100 * value) / (total || 1))} %`;
+  const part = (value: number) => percent(value / (total || 1), 0);
   return `From ${number(first)} to ${number(total)}. Of what is left, ${part(data)} is misfit of the frames, ${part(smoothness)} depth's roughness, ${part(length)} length of curves.`;
 }

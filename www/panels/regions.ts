@@ -140,7 +140,7 @@ const briefly = (shape: Shape) =>
     : `${shape.points.length} corners`;
 
 const facing = ({ pixels, share, kind }: Region) =>
-  `${count(pixels)} px · ${percent(share)} · ${KINDS[kind] ?? kind}`;
+  `${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)} · ${KINDS[kind] ?? kind}`;
 
 function fill(table: HTMLElement, region: Region): void {
   const cells = [...table.querySelectorAll<HTMLElement>("[data-number]")];

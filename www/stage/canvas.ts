@@ -7,6 +7,7 @@ export class SharpCanvas {
   size: Box = { width: 0, height: 0 };
   private waiting = false;
 
+  /** `draw` begins by clearing, unless it would rather leave what is there. */
   constructor(
     readonly element: HTMLCanvasElement,
     private readonly draw: (context: CanvasRenderingContext2D, size: Box) => void,
@@ -40,7 +41,6 @@ export class SharpCanvas {
     if (width === 0 || height === 0) return;
     const dense = this.element.width / width;
     this.context.setTransform(dense, 0, 0, dense, 0, 0);
-    this.context.clearRect(0, 0, width, height);
     this.draw(this.context, this.size);
   }
 }

@@ -20,8 +20,9 @@ const FLICKER_MS = 450;
 let flickerSecond = false;
 
 const lower = new SharpCanvas(byId<HTMLCanvasElement>("picture"), paintPictures);
-const upper = new SharpCanvas(byId<HTMLCanvasElement>("overlay"), (context) => {
+const upper = new SharpCanvas(byId<HTMLCanvasElement>("overlay"), (context, { width, height }) => {
   const { state } = store;
+  context.clearRect(0, 0, width, height);
   if (state.view !== "curves" || !state.frames) return;
   drawShapes(context, stagePane(), state);
   drawSketch(context, stagePane());
@@ -29,9 +30,10 @@ const upper = new SharpCanvas(byId<HTMLCanvasElement>("overlay"), (context) => {
 
 export function mountStage(): void {
   store.watch(
-    ({ frames, pictures, contours, started, view, viewParams, catalogues }) => [
+    ({ frames, pictures, pictured, contours, started, view, viewParams, catalogues }) => [
       frames,
       pictures,
+      pictured,
       contours,
       started,
       view,
@@ -53,9 +55,9 @@ export function mountStage(): void {
   );
   sketchChanged(() => upper.invalidate());
   store.watch(
-    ({ view, pictures, catalogues, width, viewParams }) => [
+    ({ view, pictured, catalogues, width, viewParams }) => [
       view,
-      pictures.length,
+      pictured,
       catalogues,
       width,
       viewParams.compare,
@@ -86,10 +88,12 @@ export async function stagePicture(): Promise<Blob | null> {
 function paintPictures(context: CanvasRenderingContext2D, size: Box): void {
   const { state } = store;
   const frame = { width: state.width, height: state.height };
-  if (!state.frames || frame.width === 0) return;
   const view = viewOf(state.view);
-  if (view.id === "relief") return;
   const wanted = asks(state).length;
+  // Another view was chosen and its picture is not there yet: the last one stays till then.
+  if (wanted > 0 && state.pictured !== state.view) return;
+  context.clearRect(0, 0, size.width, size.height);
+  if (!state.frames || frame.width === 0 || view.id === "relief") return;
   const captioned = captionsOf(state).length > 0;
   const layout = panes(size, frame, Math.max(1, wanted), captioned ? CAPTION_HEIGHT : 0);
   setPanes(layout);

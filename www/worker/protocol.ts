@@ -101,6 +101,8 @@ export interface PictureRequest {
 export interface Wanted {
   /** Comes back with the progress that answers it, so that late answers to old questions are known. */
   id: number;
+  /** The page's name for it, sent back likewise. */
+  view: string;
   pictures: PictureRequest[];
   mesh: Record<string, unknown> | null;
 }
@@ -143,6 +145,7 @@ export interface ScoreTable {
 export interface Progress {
   /** Of the `Wanted` it answers. */
   id: number;
+  view: string;
   running: boolean;
   report: Report;
   contours: Contour[];

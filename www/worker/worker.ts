@@ -19,7 +19,7 @@ const ready = load();
 
 let running = false;
 let looping = false;
-let look = looked({ id: 0, pictures: [], mesh: null });
+let look = looked({ id: 0, view: "", pictures: [], mesh: null });
 let send: (progress: Progress) => Promise<void> = async () => {};
 let fail: (failure: Failure) => void = () => {};
 
@@ -125,7 +125,16 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
     pictures.push(picture);
   }
   return {
-    message: { id: wanted.id, running, report, contours, pictures, mesh, scores },
+    message: {
+      id: wanted.id,
+      view: wanted.view,
+      running,
+      report,
+      contours,
+      pictures,
+      mesh,
+      scores,
+    },
     transfer,
   };
 }
