@@ -48,6 +48,9 @@ impl Frame {
             .into_dimensions()
             .map_err(|e| unreadable(e.to_string()))?;
         check_size(name, width as usize, height as usize)?;
+        if jpeg_breaks_off(bytes) {
+            return Err(unreadable("the file is cut short".to_owned()));
+        }
         let picture = open()?.decode().map_err(|e| unreadable(e.to_string()))?;
         Ok(Self::from_dynamic(&picture))
     }
@@ -187,4 +190,32 @@ fn luma(rgb: [f32; 3]) -> f32 {
 fn over_grey(rgba: [f32; 4]) -> [f32; 3] {
     let a = rgba[3] / 255.0;
     [rgba[0], rgba[1], rgba[2]].map(|c| c * a + 128.0 * (1.0 - a))
+}
+
+/// Whether the bytes are a JPEG without an end. The decoder would fill what is missing with grey and say
+/// nothing, and a solver would take the grey for a scene.
+fn jpeg_breaks_off(bytes: &[u8]) -> bool {
+    bytes.starts_with(&[0xff, 0xd8]) && jpeg_end(&bytes[2..]).is_none()
+}
+
+/// Walks a JPEG's segments (`FF marker length …`, with coded data after those that start a scan) from
+/// behind its start to its end of image; `None` when they stop before.
+fn jpeg_end(mut rest: &[u8]) -> Option<()> {
+    loop {
+        let start = rest.windows(2).position(|pair| {
+            // In coded data zero is stuffing and D0–D7 restart them; FF may be repeated anywhere.
+            pair[0] == 0xff && !matches!(pair[1], 0x00 | 0xd0..=0xd7 | 0xff)
+        })?;
+        let marker = rest[start + 1];
+        rest = &rest[start + 2..];
+        match marker {
+            0xd9 => return Some(()),
+            // The only other one without a length.
+            0x01 => {}
+            _ => {
+                let length = u16::from_be_bytes(*rest.first_chunk()?);
+                rest = rest.get(usize::from(length.max(2))..)?;
+            }
+        }
+    }
 }
