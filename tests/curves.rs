@@ -224,6 +224,36 @@ fn several_curves_settle_side_by_side() {
 }
 
 #[test]
+fn what_a_far_region_explains_better_is_not_thrown_to_the_background() {
+    // By chance the second region explains part of the first disc even better, but its curve is far away.
+    let discs = [circle(20.0, 26.0, 12.0), circle(50.0, 26.0, 7.0)];
+    let mut xi = residuals(&discs);
+    for (x, y) in pixels() {
+        if discs[0][(x, y)] > 0.0 {
+            xi[1][(x, y)] = 0.01;
+            xi[2][(x, y)] = if x > 20 && x < 30 { 0.0 } else { 1.0 };
+        }
+    }
+    let cost = |phi: &[Grid<f32>]| {
+        let owner = labels(phi, W, H);
+        let each = pixels().map(|at| xi[usize::from(owner[at])][at]);
+        each.sum::<f32>()
+    };
+    let mut phi = discs.clone();
+    for _ in 0..4 {
+        let before = cost(&phi);
+        evolve(&mut phi, &xi, 1e-3, 20);
+        let after = cost(&phi);
+        assert!(
+            after <= 1.01 * before + 1.0,
+            "cost from {before} to {after}"
+        );
+    }
+    let wrong = wrong(&phi, &discs);
+    assert!(wrong < 0.01, "{wrong} wrong");
+}
+
+#[test]
 fn a_larger_length_weight_gives_a_shorter_curve() {
     // A disc whose residuals flicker from pixel to pixel.
     let disc = circle(32.0, 27.0, 15.0);

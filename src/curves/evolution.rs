@@ -20,10 +20,13 @@ const TYPICAL: f32 = 0.45;
 /// Half width of the band, in pixels, and steps after which it is laid anew.
 const BAND: (f32, usize) = (6.0, 5);
 
+/// Distance in pixels up to which a neighbouring curve can take over what another leaves.
+const REACH: f32 = 2.0;
+
 /// Moves the level sets `phi` (of labels 1…) by `steps` steps of (17). `xi[j]` is region j's residual,
 /// `xi[0]` the background's.
 pub fn evolve(phi: &mut [Grid<f32>], xi: &[Grid<f32>], lambda: f64, steps: usize) {
-    let speeds: Vec<Grid<f32>> = (1..xi.len()).map(|k| speed(xi, k)).collect();
+    let speeds: Vec<Grid<f32>> = (1..xi.len()).map(|k| speed(phi, xi, k)).collect();
     let Some(typical) = typical_speed(phi, &speeds) else {
         return;
     };
@@ -78,12 +81,14 @@ pub fn length(phi: &Grid<f32>) -> f64 {
     sum
 }
 
-/// ξk − min_{j≠k} ξj.
-fn speed(xi: &[Grid<f32>], k: usize) -> Grid<f32> {
+/// ξk − min_{j≠k} ξj. Inside γk only the background and regions within reach count: what γk leaves to
+/// a region far away would fall to whoever is there, whatever that costs.
+fn speed(phi: &[Grid<f32>], xi: &[Grid<f32>], k: usize) -> Grid<f32> {
+    let own = phi[k - 1].data();
     let mut rival = Grid::new(xi[k].width(), xi[k].height(), f32::INFINITY);
-    for (j, other) in xi.iter().enumerate() {
-        if j != k {
-            for (r, &o) in rival.data_mut().iter_mut().zip(other.data()) {
+    for (j, other) in xi.iter().enumerate().filter(|&(j, _)| j != k) {
+        for (i, (r, &o)) in rival.data_mut().iter_mut().zip(other.data()).enumerate() {
+            if j == 0 || own[i] <= 0.0 || phi[j - 1].data()[i] > -REACH {
                 *r = r.min(o);
             }
         }
