@@ -110,7 +110,7 @@ impl Options {
                 lambda: None,
                 epsilon: 0.05,
                 smoothing: 1.0,
-                rotation_ridge: 1e-3,
+                rotation_ridge: 0.1,
                 depth_steps: 20,
                 curve_steps: 20,
                 max_passes: 150,

@@ -39,8 +39,10 @@ pub struct Scale {
 pub struct Linearisation {
     /// Derivatives and residual; all 0 where the point leaves the frame.
     pub rows: Grid<Row>,
-    /// ‖∇I‖, grey levels per pixel.
-    pub contrast: Grid<f32>,
+    /// ∇I, grey levels per pixel.
+    pub gradient: Grid<[f32; 2]>,
+    /// The displacement w that it is linearised around, in pixels.
+    pub flow: Grid<[f32; 2]>,
     /// Whether the point is still in the frame.
     pub inside: Grid<bool>,
 }
@@ -71,7 +73,8 @@ impl Scale {
     pub fn linearise(&self, motion: &RigidMotion, rho: &Grid<f32>) -> Linearisation {
         let (width, height) = (self.width(), self.height());
         let mut rows = Grid::new(width, height, [0.0; 8]);
-        let mut contrast = Grid::new(width, height, 0.0);
+        let mut gradient = Grid::new(width, height, [0.0; 2]);
+        let mut flow = Grid::new(width, height, [0.0; 2]);
         let mut inside = Grid::new(width, height, false);
         let turn = motion.matrix().as_mat3();
         let t = motion.translation.as_vec3();
@@ -112,12 +115,14 @@ impl Scale {
                     x * iy - y * ix,
                     residual,
                 ];
-                contrast[at] = ix.hypot(iy);
+                gradient[at] = [ix, iy];
+                flow[at] = [qx - px as f32, qy - py as f32];
             }
         }
         Linearisation {
             rows,
-            contrast,
+            gradient,
+            flow,
             inside,
         }
     }

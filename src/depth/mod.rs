@@ -1,9 +1,11 @@
 //! Step 2: depth at every pixel.
 
+mod confidence;
 mod descent;
 mod elliptic;
 mod smoothness;
 
+pub use confidence::confidence;
 pub use descent::{DepthDescent, NEAREST_FARTHEST};
 pub use elliptic::Elliptic;
 pub use smoothness::Smoothness;

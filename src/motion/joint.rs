@@ -14,38 +14,12 @@
 
 use glam::{DQuat, DVec3};
 
+use super::Kind;
 use super::cholesky::solve_positive;
 use crate::camera::RigidMotion;
 use crate::depth::Elliptic;
 use crate::grid::Grid;
 use crate::warp::{RESIDUAL, Row};
-
-/// What a motion may be.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Kind {
-    /// T = 0 and ω = 0.
-    Still,
-    /// T = 0: depth does not show.
-    Rotation,
-    /// ω = 0.
-    Translation,
-    /// Both.
-    #[default]
-    Full,
-}
-
-impl Kind {
-    /// Whether T is free.
-    pub fn translates(self) -> bool {
-        matches!(self, Kind::Translation | Kind::Full)
-    }
-
-    /// Whether ω is free.
-    pub fn rotates(self) -> bool {
-        matches!(self, Kind::Rotation | Kind::Full)
-    }
-}
 
 /// The linear system of a region at its present linearisation.
 pub struct JointStep<'a> {

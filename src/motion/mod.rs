@@ -2,8 +2,10 @@
 
 mod cholesky;
 mod joint;
+mod kind;
 mod least_squares;
 
 pub use cholesky::solve_positive;
-pub use joint::{Joint, JointStep, Kind};
+pub use joint::{Joint, JointStep};
+pub use kind::Kind;
 pub use least_squares::least_squares;

@@ -102,8 +102,8 @@ pub(super) fn stage() -> Stage {
             turn(DVec3::ZERO, DVec3::ZERO, DVec3::new(-0.006, 0.0, 0.0)),
             turn(
                 bear.point(DVec3::new(0.0, 0.8, 0.0)),
-                DVec3::new(0.0, 0.006, 0.001),
-                DVec3::new(0.014, -0.003, -0.01),
+                DVec3::new(0.0, -0.0006, 0.001),
+                DVec3::new(0.017, -0.004, -0.004),
             ),
         ],
         light: Light::daylight(

@@ -41,6 +41,8 @@ pub enum Status {
 
 /// Passes for which all must stand still.
 const STILL_PASSES: usize = 3;
+/// σ must fall at least to this share before μ is chosen again.
+const TIGHTER: f64 = 0.8;
 /// Relative change of energy that counts as standing still.
 const STILL_ENERGY: f64 = 1e-3;
 
@@ -119,6 +121,9 @@ impl Solver {
             0
         };
         self.history.push(energy);
+        if self.still >= STILL_PASSES && self.tighten() {
+            self.still = 0;
+        }
         self.status = if !energy.is_finite() {
             Status::Diverged
         } else if self.still >= STILL_PASSES {
@@ -136,9 +141,9 @@ impl Solver {
         let start = (self.clock)();
         self.state
             .find_motions(&self.camera, &self.derivatives, &self.options);
-        if !self.weights.chosen {
-            self.weights =
-                Weights::choose(&self.state, &self.camera, &self.derivatives, &self.options);
+        if !self.weights.chosen() {
+            let sigma = weights::sigma(&self.state, &self.camera, &self.derivatives);
+            self.weights = Weights::choose(sigma, &self.options);
         }
         self.seconds.motion += (self.clock)() - start;
     }
@@ -221,7 +226,7 @@ impl Solver {
         }
         self.options = options;
         // Weights chosen from the data stay as they are, so that energies remain comparable.
-        if self.weights.chosen {
+        if self.weights.chosen() {
             self.weights = self.weights.with(&self.options);
         }
         self.resume();
@@ -253,7 +258,8 @@ impl Solver {
 
     /// What the frames are taken for at present.
     pub fn interpretation(&self) -> Interpretation {
-        self.state.interpretation(&self.camera, &self.derivatives)
+        self.state
+            .interpretation(&self.camera, &self.derivatives, self.weights.sigma)
     }
 
     /// The curves as sub-pixel polylines, in the order of their labels.
@@ -268,9 +274,20 @@ impl Solver {
     }
 
     fn ensure_weights(&mut self) {
-        if !self.weights.chosen {
+        if !self.weights.chosen() {
             self.step_motion();
         }
+    }
+
+    /// Chooses μ again once all stands still: residuals are smaller by then, and so is what smoothness
+    /// must outweigh. Returns whether that changed anything.
+    fn tighten(&mut self) -> bool {
+        let sigma = weights::sigma(&self.state, &self.camera, &self.derivatives);
+        let tighter = sigma < TIGHTER * self.weights.sigma;
+        if tighter {
+            self.weights = self.weights.tightened(sigma, &self.options);
+        }
+        tighter
     }
 
     fn resume(&mut self) {

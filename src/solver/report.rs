@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::weights::Weights;
 use super::{Solver, Status};
 use crate::energy::Energy;
+use crate::motion::Kind;
 
 /// Seconds spent in each step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -31,7 +32,7 @@ pub struct RegionReport {
     /// ω, in radians per frame.
     pub rotation: [f64; 3],
     /// still, rotation, translation or full.
-    pub kind: &'static str,
+    pub kind: Kind,
 }
 
 /// The state of a solver.
@@ -95,7 +96,7 @@ impl Report {
                 share: pixels as f64 / all,
                 translation: motion.translation.to_array(),
                 rotation: motion.rotation.to_array(),
-                kind: kind(motion),
+                kind: Kind::seen(&solver.camera, motion),
             })
             .collect();
         let energy = solver.energy();
@@ -118,17 +119,6 @@ impl Report {
                 steps,
             },
         }
-    }
-}
-
-fn kind(motion: &crate::camera::RigidMotion) -> &'static str {
-    let moves = motion.translation.length_squared() > 0.0;
-    let turns = motion.rotation.length_squared() > 0.0;
-    match (moves, turns) {
-        (false, false) => "still",
-        (false, true) => "rotation",
-        (true, false) => "translation",
-        (true, true) => "full",
     }
 }
 

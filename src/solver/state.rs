@@ -5,7 +5,7 @@
 use crate::camera::{Camera, RigidMotion};
 use crate::constraint;
 use crate::curves;
-use crate::depth::{DepthDescent, NEAREST_FARTHEST, Smoothness};
+use crate::depth::{self, DepthDescent, NEAREST_FARTHEST, Smoothness};
 use crate::energy::Energy;
 use crate::frames::Derivatives;
 use crate::grid::Grid;
@@ -149,7 +149,12 @@ impl State {
         psi
     }
 
-    pub fn interpretation(&self, camera: &Camera, derivatives: &Derivatives) -> Interpretation {
+    pub fn interpretation(
+        &self,
+        camera: &Camera,
+        derivatives: &Derivatives,
+        sigma: f64,
+    ) -> Interpretation {
         let (width, height) = (self.labels.width(), self.labels.height());
         let mut flow = Flow {
             u: Grid::new(width, height, 0.0),
@@ -164,16 +169,41 @@ impl State {
                 flow.v[(x, y)] = v as f32;
             }
         }
-        let _ = derivatives;
         Interpretation {
             camera: *camera,
             labels: self.labels.clone(),
             depth: self.rho.map(f32::recip),
             flow,
-            confidence: Grid::new(width, height, 1.0),
+            confidence: self.confidence(camera, derivatives, sigma),
             occluded: Grid::new(width, height, 0),
             motions: self.motions.clone(),
         }
+    }
+
+    /// How far depth shows: not at all where a region's translation does not.
+    fn confidence(&self, camera: &Camera, derivatives: &Derivatives, sigma: f64) -> Grid<f32> {
+        if sigma <= 0.0 {
+            return Grid::new(self.labels.width(), self.labels.height(), 0.0);
+        }
+        let shows: Vec<bool> = self
+            .motions
+            .iter()
+            .map(|motion| motion::Kind::seen(camera, motion).translates())
+            .collect();
+        let (mut slope, _) = self.along_depth(camera, derivatives);
+        let labels = self.labels.data();
+        for (a, &k) in slope.data_mut().iter_mut().zip(labels) {
+            if !shows[usize::from(k)] {
+                *a = 0.0;
+            }
+        }
+        let mut confidence = depth::confidence(&slope, sigma);
+        for (c, &k) in confidence.data_mut().iter_mut().zip(labels) {
+            if !shows[usize::from(k)] {
+                *c = 0.0;
+            }
+        }
+        confidence
     }
 
     /// ψ = slope · ρ + offset of the region that owns each pixel.
