@@ -233,9 +233,18 @@ async function recover(): Promise<void> {
   recovering = true;
   try {
     client.restart();
+    // Commands that were under way end first, and with them what they said the page was busy with.
+    await new Promise((next) => setTimeout(next));
     forgetAsked();
     const { source } = store.state;
-    store.update({ running: false, started: false, report: null, contours: [], scores: null });
+    store.update({
+      busy: "Starting afresh",
+      running: false,
+      started: false,
+      report: null,
+      contours: [],
+      scores: null,
+    });
     if (!source) return;
     await client.call((service) => service.open(source, setupOf(store.state)));
     await client.call((service) => service.look(want()));
@@ -243,6 +252,7 @@ async function recover(): Promise<void> {
     if (!(error instanceof Ended)) store.update({ message: sentence((error as Error).message) });
   } finally {
     recovering = false;
+    store.update({ busy: null });
   }
 }
 
