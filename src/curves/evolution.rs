@@ -157,10 +157,10 @@ fn bend(phi: &Grid<f32>, x: usize, y: usize) -> f32 {
     let xx = at(1, 0) - 2.0 * at(0, 0) + at(-1, 0);
     let yy = at(0, 1) - 2.0 * at(0, 0) + at(0, -1);
     let xy = 0.25 * (at(1, 1) - at(-1, 1) - at(1, -1) + at(-1, -1));
-    let g2 = gx * gx + gy * gy + 1e-6;
-    let norm = g2.sqrt();
-    let curvature = (xx * gy * gy - 2.0 * xy * gx * gy + yy * gx * gx) / (g2 * norm);
-    curvature.clamp(-1.0, 1.0) * norm
+    // Where φ peaks the direction is open: both count alike, or a last pixel would never vanish.
+    let (gx2, gy2) = (gx * gx + 1e-6, gy * gy + 1e-6);
+    let bend = (xx * gy2 - 2.0 * xy * gx * gy + yy * gx2) / (gx2 + gy2);
+    bend.clamp(-1.0, 1.0)
 }
 
 fn central(phi: &Grid<f32>, x: usize, y: usize) -> (f32, f32) {
