@@ -150,6 +150,12 @@ impl Options {
     /// # Errors
     /// [`Error::Option`] for the first one outside.
     pub fn validate(&self) -> Result<(), Error> {
+        // JSON has no word for these: they would pass for null, *chosen from the data*.
+        for (key, value) in [("mu", self.mu), ("lambda", self.lambda)] {
+            if let Some(value) = value.filter(|v| !v.is_finite()) {
+                descriptor(key)?.check(&Value::from(value.to_string()))?;
+            }
+        }
         for (key, value) in self.as_map() {
             if key != "preset" {
                 descriptor(&key)?.check(&value)?;

@@ -265,7 +265,9 @@ fn numbers_that_are_none_are_refused_by_the_solver() {
     let camera = relievo::Camera::centred(32.0, 32, 24).unwrap();
     let start = |options| Solver::new(pair.clone(), camera, &[], options);
     type Change = fn(&mut Options, f64);
-    let changes: [(&str, Change); 4] = [
+    let changes: [(&str, Change); 6] = [
+        ("mu", |o, v| o.mu = Some(v)),
+        ("lambda", |o, v| o.lambda = Some(v)),
         ("epsilon", |o, v| o.epsilon = v),
         ("smoothing", |o, v| o.smoothing = v),
         ("rotation_ridge", |o, v| o.rotation_ridge = v),
