@@ -8,6 +8,7 @@
 import { announce } from "./dom";
 import { store, type State } from "./store";
 import { wantedBy } from "./views";
+import { ending, sentence } from "./wording";
 import { Client, Ended } from "./worker/client";
 import type {
   Failure,
@@ -96,7 +97,7 @@ const setupOf = (state: Readonly<State>): Setup => ({
 
 export async function run(): Promise<void> {
   if (store.state.running) return;
-  store.update({ running: true, started: true });
+  store.update({ running: true, started: true, selected: null });
   const ok = await attempt(null, async () => {
     await client.call((service) => service.run(setupOf(store.state)));
     announce("Running.");
@@ -256,13 +257,6 @@ async function recover(): Promise<void> {
   }
 }
 
-/** The core's sentences begin small and end bare, so that they fit into others. */
-function sentence(text: string): string {
-  const trimmed = text.trim();
-  const whole = trimmed.charAt(0).toUpperCase() + trimmed.slice(1);
-  return /[.!?]$/.test(whole) ? whole : `${whole}.`;
-}
-
 /** Takes one progress in and resolves once it is drawn, which lets the worker send the next. */
 async function show(progress: Progress): Promise<void> {
   const { state } = store;
@@ -283,24 +277,10 @@ async function show(progress: Progress): Promise<void> {
     scores: progress.scores,
   });
   if (progress.mesh) meshListener(progress.mesh);
-  if (finished) announce(ending(progress));
+  if (finished) announce(ending(progress.report));
   if (lookAgain) {
     lookAgain = false;
     void look();
   }
   if (!document.hidden) await new Promise((drawn) => requestAnimationFrame(drawn));
-}
-
-function ending({ report }: Progress): string {
-  const after = `after ${report.iterations} passes`;
-  switch (report.status) {
-    case "converged":
-      return `Converged ${after}.`;
-    case "exhausted":
-      return `Out of iterations ${after}.`;
-    case "diverged":
-      return `Diverged ${after}.`;
-    case "running":
-      return `Paused ${after}.`;
-  }
 }

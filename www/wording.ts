@@ -1,0 +1,25 @@
+/** What the page says in whole sentences. */
+
+import type { Report } from "./worker/protocol";
+
+/** The core's sentences begin small and end bare, so that they fit into others. */
+export function sentence(text: string): string {
+  const trimmed = text.trim();
+  const whole = trimmed.charAt(0).toUpperCase() + trimmed.slice(1);
+  return /[.!?]$/.test(whole) ? whole : `${whole}.`;
+}
+
+/** How a run ended, for those who listen. */
+export function ending(report: Report): string {
+  const after = `after ${report.iterations} passes`;
+  switch (report.status) {
+    case "converged":
+      return `Converged ${after}.`;
+    case "exhausted":
+      return `Out of iterations ${after}.`;
+    case "diverged":
+      return `Diverged ${after}.`;
+    case "running":
+      return `Paused ${after}.`;
+  }
+}
