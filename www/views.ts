@@ -2,6 +2,7 @@
  * The views: what each shows, asks of the core, and lets one choose, as data.
  */
 
+import { byId } from "./dom";
 import { store, type State, type ViewParams } from "./store";
 import type { Choice, Wanted, Whose } from "./worker/protocol";
 
@@ -174,8 +175,16 @@ export function wantedBy(state: Readonly<State>): Omit<Wanted, "id"> {
   return {
     view: state.view,
     pictures: asks(state).map(([of, kind]) => ({ of, kind, params })),
+    longest: screenSide(),
     mesh: state.view === "relief" ? params : null,
   };
+}
+
+/** The stage's longer side in pixels of the screen, in steps so that resizing asks for nothing new. */
+function screenSide(): number {
+  const { clientWidth, clientHeight } = byId("stage");
+  const side = Math.max(clientWidth, clientHeight) * (window.devicePixelRatio || 1);
+  return Math.max(512, 256 * Math.ceil(side / 256));
 }
 
 /** Whose pictures of which kind are on the stage, in order. */

@@ -98,7 +98,7 @@ function paintPictures(context: CanvasRenderingContext2D, size: Box): void {
   const layout = panes(size, frame, Math.max(1, wanted), captioned ? CAPTION_HEIGHT : 0);
   setPanes(layout);
   placeCaptions(layout);
-  context.imageSmoothingQuality = "high";
+  context.imageSmoothingQuality = "medium";
   const shown = state.frames[flickerSecond ? 1 : 0];
   for (const [i, pane] of layout.entries()) {
     const picture = wanted === 0 ? shown : state.pictures[i];
@@ -132,11 +132,15 @@ function drawContours(
   context.lineJoin = "round";
   for (const { label, closed, points } of contours) {
     const path = new Path2D();
+    let lastX = Number.NaN;
+    let lastY = Number.NaN;
     for (let i = 0; i + 1 < points.length; i += 2) {
-      path.lineTo(
-        pane.left + (points[i]! + 0.5) * pane.scale,
-        pane.top + (points[i + 1]! + 0.5) * pane.scale,
-      );
+      const x = pane.left + (points[i]! + 0.5) * pane.scale;
+      const y = pane.top + (points[i + 1]! + 0.5) * pane.scale;
+      // Points nearer than the screen can show only take time; the first has no last and stays.
+      if (Math.abs(x - lastX) < 1 && Math.abs(y - lastY) < 1) continue;
+      path.lineTo(x, y);
+      [lastX, lastY] = [x, y];
     }
     if (closed) path.closePath();
     // A dark rim keeps the line legible on light texture, as a light core does on dark.

@@ -21,7 +21,7 @@ import type {
   Whose,
 } from "./protocol";
 
-/** Longest side of a picture sent to the page; more than a screen shows only costs memory. */
+/** Longest side of a frame sent to the page; more than a screen shows only costs memory. */
 const LONGEST_SIDE = 2048;
 
 interface Owned {
@@ -124,10 +124,10 @@ export class Engine {
     return JSON.parse(this.present().solver.contours()) as Contour[];
   }
 
-  async picture({ of, kind, params }: PictureRequest): Promise<ImageBitmap> {
+  async picture({ of, kind, params }: PictureRequest, longest: number): Promise<ImageBitmap> {
     const picture = this.drawer(of).view(kind, JSON.stringify(params));
     try {
-      return await bitmap(picture);
+      return await bitmap(picture, longest);
     } finally {
       picture.free();
     }

@@ -104,6 +104,8 @@ export interface Wanted {
   /** The page's name for it, sent back likewise. */
   view: string;
   pictures: PictureRequest[];
+  /** Longest side of a picture that the screen can use, in pixels; larger ones are made smaller. */
+  longest: number;
   mesh: Record<string, unknown> | null;
 }
 

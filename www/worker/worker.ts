@@ -19,7 +19,7 @@ const ready = load();
 
 let running = false;
 let looping = false;
-let look = looked({ id: 0, view: "", pictures: [], mesh: null });
+let look = looked({ id: 0, view: "", pictures: [], longest: 1, mesh: null });
 let send: (progress: Progress) => Promise<void> = async () => {};
 let fail: (failure: Failure) => void = () => {};
 
@@ -119,7 +119,7 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
   const scores = engine.scores();
   const pictures: (ImageBitmap | null)[] = [];
   for (const request of wanted.pictures) {
-    const picture = settled.has(request) ? null : await engine.picture(request);
+    const picture = settled.has(request) ? null : await engine.picture(request, wanted.longest);
     if (picture) transfer.push(picture);
     if (request.of !== "found") settled.add(request);
     pictures.push(picture);
