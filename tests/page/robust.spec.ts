@@ -104,8 +104,9 @@ test("never more than one progress is on its way, and none keeps the page busy",
   const sorted = seen.milliseconds.toSorted((a, b) => a - b);
   const high = sorted[Math.floor(0.95 * (sorted.length - 1))]!;
   expect(high, "95 % of progress is taken in within").toBeLessThan(50);
-  // A shared machine may hold up a task now and then; the page's own work must not.
-  expect(seen.longTasks.length).toBeLessThanOrEqual(Math.max(2, 0.1 * seen.messages));
+  // On a busy machine a task is held up by others now and then. Were the page to compute, or to wait
+  // for the worker, a long task would come with every progress.
+  expect(seen.longTasks.length, "tasks above 50 ms").toBeLessThan(0.5 * seen.messages);
 });
 
 interface Watched {
