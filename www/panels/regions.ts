@@ -12,7 +12,7 @@ import { store, type State } from "../store";
 import type { Region, Shape } from "../worker/protocol";
 
 const KINDS: Record<string, string> = {
-  still: "at rest",
+  still: "still",
   rotation: "rotation",
   translation: "translation",
   full: "full",
