@@ -61,10 +61,12 @@ pub mod grid;
 pub mod horn_schunck;
 pub mod interpretation;
 pub mod motion;
+pub mod occlusion;
 pub mod options;
 pub mod scene;
 pub mod score;
 pub mod solver;
+pub mod start;
 pub mod view;
 pub mod warp;
 

@@ -20,16 +20,19 @@ pub enum Preset {
     /// The method as printed: one scale, Z by descent, one depth field.
     #[default]
     Paper,
+    /// Coarse to fine, a field of inverse depth per region, depth eliminated from the motion step.
+    Best,
 }
 
 impl Preset {
     /// All of them, the default first.
-    pub const ALL: &'static [Self] = &[Self::Paper];
+    pub const ALL: &'static [Self] = &[Self::Paper, Self::Best];
 
     /// What to show for it.
     pub fn label(self) -> &'static str {
         match self {
             Self::Paper => "as in the paper",
+            Self::Best => "best: coarse to fine",
         }
     }
 }
@@ -40,14 +43,18 @@ impl Preset {
 pub enum MotionMethod {
     /// Least squares for (T, ω) with depth held fixed.
     LeastSquares,
+    /// Gauss–Newton for (T, ω) with depth eliminated; only with a depth field per region.
+    Joint,
 }
 
 /// How step 2 finds depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DepthMethod {
-    /// Descent on Z, equation (9).
+    /// Descent on Z, equation (9): one scale, one field.
     Descent,
+    /// A linear system in 1/Z, coarse to fine: a field per region.
+    Layers,
 }
 
 /// The function g that smooths depth.
@@ -85,6 +92,14 @@ pub struct Options {
     pub depth_steps: usize,
     /// Steps of the curves in a pass.
     pub curve_steps: usize,
+    /// Whether directions of T are searched over the whole sphere.
+    pub search: bool,
+    /// Whether the simplest kind of motion that explains a region is chosen.
+    pub choose_kind: bool,
+    /// Whether large residuals count less than their square.
+    pub robust: bool,
+    /// Whether regions compete in units of each residual's uncertainty.
+    pub normalised: bool,
     /// Passes after which the solver gives up.
     pub max_passes: usize,
     /// Share of pixels that may still change region in a pass that counts as still.
@@ -113,8 +128,25 @@ impl Options {
                 rotation_ridge: 0.1,
                 depth_steps: 20,
                 curve_steps: 20,
+                search: false,
+                choose_kind: false,
+                robust: false,
+                normalised: false,
                 max_passes: 150,
                 tolerance: 2e-4,
+            },
+            Preset::Best => Self {
+                motion: MotionMethod::Joint,
+                depth: DepthMethod::Layers,
+                epsilon: 3e-3,
+                smoothing: 0.7,
+                search: true,
+                choose_kind: true,
+                robust: true,
+                normalised: true,
+                max_passes: 60,
+                preset,
+                ..Self::preset(Preset::Paper)
             },
         }
     }
@@ -133,7 +165,7 @@ impl Options {
         let preset = match given.get("preset") {
             None => Preset::default(),
             Some(value) => serde_json::from_value(value.clone())
-                .map_err(|_| choice("preset", value, &["paper"]))?,
+                .map_err(|_| choice("preset", value, &["paper", "best"]))?,
         };
         let mut all = Self::preset(preset).as_map();
         for (key, value) in given {
@@ -298,6 +330,22 @@ const fn weight(max: f64) -> Control {
     }
 }
 
+const fn toggle(
+    key: &'static str,
+    label: &'static str,
+    meaning: &'static str,
+    term: &'static str,
+) -> Descriptor {
+    Descriptor {
+        key,
+        label,
+        meaning,
+        term,
+        unit: "",
+        control: Control::Toggle,
+    }
+}
+
 /// Every option in the order in which a form should show it.
 pub fn catalogue() -> &'static [Descriptor] {
     CATALOGUE
@@ -350,14 +398,20 @@ static CATALOGUE: &[Descriptor] = &[
     Descriptor {
         key: "motion",
         label: "Motion step",
-        meaning: "How a region's T and ω are found.",
+        meaning: "How a region's T and ω are found. With one depth field for all regions it is held fixed.",
         term: "step 1",
         unit: "",
         control: Control::Choice {
-            choices: &[Choice {
-                value: "least-squares",
-                label: "least squares, depth fixed",
-            }],
+            choices: &[
+                Choice {
+                    value: "least-squares",
+                    label: "least squares, depth fixed",
+                },
+                Choice {
+                    value: "joint",
+                    label: "depth eliminated",
+                },
+            ],
         },
     },
     Descriptor {
@@ -375,12 +429,42 @@ static CATALOGUE: &[Descriptor] = &[
         term: "step 2",
         unit: "",
         control: Control::Choice {
-            choices: &[Choice {
-                value: "descent",
-                label: "descent on Z (9)",
-            }],
+            choices: &[
+                Choice {
+                    value: "descent",
+                    label: "descent on Z (9), one scale, one field",
+                },
+                Choice {
+                    value: "layers",
+                    label: "linear in 1/Z, coarse to fine, a field per region",
+                },
+            ],
         },
     },
+    toggle(
+        "search",
+        "Search directions",
+        "Look for T over the whole sphere of directions, depth eliminated, before it is refined. Coarse to fine only.",
+        "step 1",
+    ),
+    toggle(
+        "choose_kind",
+        "Choose kinds",
+        "Take the simplest of still, rotation, translation and full motion that explains a region nearly as well as the best. Coarse to fine only.",
+        "step 1",
+    ),
+    toggle(
+        "robust",
+        "Robust fit",
+        "Count large residuals less than their square when motion and depth are fitted. Coarse to fine only.",
+        "ψ in (7)",
+    ),
+    toggle(
+        "normalised",
+        "Fair competition",
+        "Let regions compete in units of each residual's uncertainty, so that strong texture does not out-vote weak. Coarse to fine only.",
+        "ξ in (17)",
+    ),
     Descriptor {
         key: "depth_steps",
         label: "Depth steps",

@@ -30,8 +30,10 @@ pub struct Scale {
     pub first: Grid<f32>,
     /// Brightness of the second frame.
     pub second: Grid<f32>,
-    first_gradient: (Grid<f32>, Grid<f32>),
-    second_gradient: (Grid<f32>, Grid<f32>),
+    /// ∂/∂x and ∂/∂y of the first frame.
+    pub first_gradient: (Grid<f32>, Grid<f32>),
+    /// ∂/∂x and ∂/∂y of the second frame.
+    pub second_gradient: (Grid<f32>, Grid<f32>),
 }
 
 /// A region's constraint at every pixel of the frame.

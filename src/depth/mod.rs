@@ -3,9 +3,11 @@
 mod confidence;
 mod descent;
 mod elliptic;
+mod region_field;
 mod smoothness;
 
 pub use confidence::confidence;
 pub use descent::{DepthDescent, NEAREST_FARTHEST};
 pub use elliptic::Elliptic;
+pub use region_field::{Edges, FieldPrior, fitted_plane};
 pub use smoothness::Smoothness;

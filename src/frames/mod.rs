@@ -3,7 +3,9 @@
 mod derivatives;
 mod frame;
 mod gaussian;
+mod pyramid;
 
 pub use derivatives::{Derivatives, gradient};
 pub use frame::{Frame, FramePair, MAX_SIDE, MIN_SIDE};
 pub use gaussian::blur;
+pub use pyramid::{doubled, halved, halved_camera};

@@ -35,6 +35,19 @@ pub struct JointStep<'a> {
     pub rotation_prior: f64,
     /// What may move.
     pub kind: Kind,
+    /// Longest step of T and of ω: the linearisation holds no further.
+    pub longest: f64,
+}
+
+/// A step of (T, ω) shortened, as a whole, until neither part is longer than `longest`.
+pub fn held(step: [f64; 6], longest: f64) -> [f64; 6] {
+    let length = |part: &[f64]| part.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let most = length(&step[..3]).max(length(&step[3..]));
+    if most > longest {
+        step.map(|x| x * longest / most)
+    } else {
+        step
+    }
 }
 
 /// Where a step leads.
@@ -101,7 +114,7 @@ impl JointStep<'_> {
             sum_bb[3 + j][3 + j] += self.rotation_prior;
             sum_br[3 + j] += self.rotation_prior * w[j];
         }
-        let step = self.free_step(&sum_bb, &sum_br, motion);
+        let step = held(self.free_step(&sum_bb, &sum_br, motion), self.longest);
         let mut depth_step = Grid::new(width, height, 0.0f32);
         for (d, x) in depth_step.data_mut().iter_mut().zip(&solution) {
             *d = x[0] + (0..6).map(|j| x[1 + j] * step[j] as f32).sum::<f32>();

@@ -7,23 +7,32 @@
 //! - *exhausted* (out of iterations) after `max_passes`,
 //! - *diverged* when the energy is no longer a finite number.
 
+mod approach;
+mod choice;
+mod layers;
+mod region;
 mod report;
-mod state;
+mod single_scale;
 mod weights;
 
 pub use report::{RegionReport, Report, Seconds};
 pub use weights::Weights;
 
+use std::rc::Rc;
+
+use approach::Approach;
+use layers::Layers;
 use serde::Serialize;
-use state::State;
+use single_scale::SingleScale;
 
 use crate::camera::Camera;
 use crate::curves::{Contour, Shape, contours};
 use crate::energy::Energy;
 use crate::error::Error;
-use crate::frames::{Derivatives, FramePair, blur};
+use crate::frames::FramePair;
+use crate::grid::Grid;
 use crate::interpretation::Interpretation;
-use crate::options::{MAX_CURVES, Options};
+use crate::options::{DepthMethod, MAX_CURVES, Options};
 
 /// Where the solver stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -41,20 +50,16 @@ pub enum Status {
 
 /// Passes for which all must stand still.
 const STILL_PASSES: usize = 3;
-/// σ must fall at least to this share before μ is chosen again.
-const TIGHTER: f64 = 0.8;
 /// Relative change of energy that counts as standing still.
 const STILL_ENERGY: f64 = 1e-3;
 
 /// Finds regions, motions and depth of a pair of frames.
 pub struct Solver {
-    pair: FramePair,
+    pair: Rc<FramePair>,
     camera: Camera,
     shapes: Vec<Shape>,
     options: Options,
-    derivatives: Derivatives,
-    state: State,
-    weights: Weights,
+    approach: Box<dyn Approach>,
     status: Status,
     history: Vec<f64>,
     still: usize,
@@ -77,14 +82,13 @@ impl Solver {
         options.validate()?;
         let level_sets = level_sets(&pair, shapes)?;
         let camera = Camera::new(camera.focal, camera.cx, camera.cy)?;
+        let pair = Rc::new(pair);
         Ok(Self {
-            derivatives: differentiate(&pair, &options),
-            state: State::new(pair.width(), pair.height(), level_sets),
+            approach: begin(&pair, camera, level_sets, &options),
             pair,
             camera,
             shapes: shapes.to_vec(),
             options,
-            weights: Weights::default(),
             status: Status::Running,
             history: Vec::new(),
             still: 0,
@@ -104,12 +108,13 @@ impl Solver {
         if self.status != Status::Running {
             return self.status;
         }
-        let before = self.state.labels.clone();
+        let before = self.approach.labels().clone();
         self.step_motion();
         self.step_depth();
         self.step_curves();
         let energy = self.energy().total();
-        let changed = before.data().iter().zip(self.state.labels.data());
+        let after = self.approach.labels();
+        let changed = before.data().iter().zip(after.data());
         let changed = changed.filter(|(a, b)| a != b).count() as f64 / before.len() as f64;
         let settled = self
             .history
@@ -121,7 +126,10 @@ impl Solver {
             0
         };
         self.history.push(energy);
-        if self.still >= STILL_PASSES && self.tighten() {
+        if self
+            .approach
+            .end_pass(self.still >= STILL_PASSES, &self.options)
+        {
             self.still = 0;
         }
         self.status = if !energy.is_finite() {
@@ -139,49 +147,27 @@ impl Solver {
     /// Step 1 alone: the motion of every region, for the present depth and curves.
     pub fn step_motion(&mut self) {
         let start = (self.clock)();
-        self.state
-            .find_motions(&self.camera, &self.derivatives, &self.options);
-        if !self.weights.chosen() {
-            let sigma = weights::sigma(&self.state, &self.camera, &self.derivatives);
-            self.weights = Weights::choose(sigma, &self.options);
-        }
+        self.approach.find_motions(&self.options);
         self.seconds.motion += (self.clock)() - start;
     }
 
     /// Step 2 alone: depth, for the present motions and curves.
     pub fn step_depth(&mut self) {
         let start = (self.clock)();
-        self.ensure_weights();
-        self.state.find_depth(
-            &self.camera,
-            &self.derivatives,
-            &self.options,
-            &self.weights,
-        );
+        self.approach.find_depth(&self.options);
         self.seconds.depth += (self.clock)() - start;
     }
 
     /// Step 3 alone: the curves, for the present motions and depth.
     pub fn step_curves(&mut self) {
         let start = (self.clock)();
-        self.ensure_weights();
-        self.state.move_curves(
-            &self.camera,
-            &self.derivatives,
-            &self.options,
-            &self.weights,
-        );
+        self.approach.move_curves(&self.options);
         self.seconds.curves += (self.clock)() - start;
     }
 
     /// The three terms of (7) as they stand.
     pub fn energy(&self) -> Energy {
-        self.state.energy(
-            &self.camera,
-            &self.derivatives,
-            &self.options,
-            &self.weights,
-        )
+        self.approach.energy(&self.options)
     }
 
     /// Whether there is more to do.
@@ -214,22 +200,21 @@ impl Solver {
         &self.options
     }
 
-    /// Changes settings while the solver runs; curves, depth and motions stay. A solver that had
-    /// stopped goes on.
+    /// Changes settings while the solver runs; curves, depth and motions stay, unless the way depth is
+    /// held changes: then they start anew from the curves drawn last. A solver that had stopped goes on.
     ///
     /// # Errors
     /// What [`Options::validate`] finds; then nothing is changed.
     pub fn set_options(&mut self, options: Options) -> Result<(), Error> {
         options.validate()?;
-        if options.smoothing != self.options.smoothing {
-            self.derivatives = differentiate(&self.pair, &options);
-        }
+        let other = options.depth != self.options.depth;
         self.options = options;
-        // Weights chosen from the data stay as they are, so that energies remain comparable.
-        if self.weights.chosen() {
-            self.weights = self.weights.with(&self.options);
+        if other {
+            self.reset();
+        } else {
+            self.approach.reconsider(&self.options);
+            self.resume();
         }
-        self.resume();
         Ok(())
     }
 
@@ -241,7 +226,7 @@ impl Solver {
     pub fn set_curves(&mut self, shapes: &[Shape]) -> Result<(), Error> {
         let level_sets = level_sets(&self.pair, shapes)?;
         self.shapes = shapes.to_vec();
-        self.state.replace_curves(level_sets);
+        self.approach.replace_curves(level_sets);
         self.resume();
         Ok(())
     }
@@ -249,8 +234,7 @@ impl Solver {
     /// Back to the start: the curves as drawn last, the same depth everywhere, nothing moving.
     pub fn reset(&mut self) {
         let level_sets = level_sets(&self.pair, &self.shapes).unwrap_or_default();
-        self.state = State::new(self.pair.width(), self.pair.height(), level_sets);
-        self.weights = Weights::default();
+        self.approach = begin(&self.pair, self.camera, level_sets, &self.options);
         self.history.clear();
         self.seconds = Seconds::default();
         self.resume();
@@ -258,36 +242,19 @@ impl Solver {
 
     /// What the frames are taken for at present.
     pub fn interpretation(&self) -> Interpretation {
-        self.state
-            .interpretation(&self.camera, &self.derivatives, self.weights.sigma)
+        self.approach.interpretation()
     }
 
     /// The curves as sub-pixel polylines, in the order of their labels.
     pub fn contours(&self) -> Vec<Contour> {
-        let numbered = self.state.phi.iter().zip(1..);
+        let level_sets = self.approach.level_sets();
+        let numbered = level_sets.iter().zip(1..);
         numbered.flat_map(|(phi, k)| contours(phi, k)).collect()
     }
 
     /// Where the solver stands, in numbers.
     pub fn report(&self) -> Report {
         Report::of(self)
-    }
-
-    fn ensure_weights(&mut self) {
-        if !self.weights.chosen() {
-            self.step_motion();
-        }
-    }
-
-    /// Chooses μ again once all stands still: residuals are smaller by then, and so is what smoothness
-    /// must outweigh. Returns whether that changed anything.
-    fn tighten(&mut self) -> bool {
-        let sigma = weights::sigma(&self.state, &self.camera, &self.derivatives);
-        let tighter = sigma < TIGHTER * self.weights.sigma;
-        if tighter {
-            self.weights = self.weights.tightened(sigma, &self.options);
-        }
-        tighter
     }
 
     fn resume(&mut self) {
@@ -300,14 +267,22 @@ impl Solver {
     }
 }
 
-fn differentiate(pair: &FramePair, options: &Options) -> Derivatives {
-    Derivatives::between(
-        &blur(&pair.first().grey, options.smoothing),
-        &blur(&pair.second().grey, options.smoothing),
-    )
+/// The approach that the options ask for, at its start.
+fn begin(
+    pair: &Rc<FramePair>,
+    camera: Camera,
+    level_sets: Vec<Grid<f32>>,
+    options: &Options,
+) -> Box<dyn Approach> {
+    match options.depth {
+        DepthMethod::Descent => {
+            Box::new(SingleScale::new(pair.clone(), camera, level_sets, options))
+        }
+        DepthMethod::Layers => Box::new(Layers::new(pair.clone(), camera, level_sets, options)),
+    }
 }
 
-fn level_sets(pair: &FramePair, shapes: &[Shape]) -> Result<Vec<crate::Grid<f32>>, Error> {
+fn level_sets(pair: &FramePair, shapes: &[Shape]) -> Result<Vec<Grid<f32>>, Error> {
     if shapes.len() > MAX_CURVES {
         return Err(Error::TooManyCurves(shapes.len()));
     }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::approach::pixels;
 use super::weights::Weights;
 use super::{Solver, Status};
 use crate::energy::Energy;
@@ -82,21 +83,21 @@ pub struct Times {
 
 impl Report {
     pub(super) fn of(solver: &Solver) -> Self {
-        let pixels = solver.state.pixels();
-        let all = solver.state.labels.len() as f64;
-        let regions: Vec<RegionReport> = solver
-            .state
-            .motions
+        let motions = solver.approach.motions();
+        let labels = solver.approach.labels();
+        let (level, levels) = solver.approach.scale();
+        let regions: Vec<RegionReport> = motions
             .iter()
-            .zip(&pixels)
+            .zip(pixels(labels, motions.len()))
             .enumerate()
-            .map(|(label, (motion, &pixels))| RegionReport {
+            .map(|(label, ((motion, kind), pixels))| RegionReport {
                 label,
-                pixels,
-                share: pixels as f64 / all,
+                // At a coarser scale a pixel stands for four, sixteen, … of the frame's.
+                pixels: pixels << (2 * level),
+                share: pixels as f64 / labels.len() as f64,
                 translation: motion.translation.to_array(),
                 rotation: motion.rotation.to_array(),
-                kind: Kind::seen(&solver.camera, motion),
+                kind: *kind,
             })
             .collect();
         let energy = solver.energy();
@@ -104,8 +105,8 @@ impl Report {
         Self {
             iterations: solver.iterations(),
             status: solver.status,
-            level: 0,
-            levels: 1,
+            level,
+            levels,
             energy: Terms {
                 terms: energy,
                 total: energy.total(),
@@ -113,7 +114,7 @@ impl Report {
             history: solver.history.clone(),
             warnings: warnings(&regions),
             regions,
-            weights: solver.weights,
+            weights: solver.approach.weights(),
             seconds: Times {
                 total: steps.motion + steps.depth + steps.curves,
                 steps,

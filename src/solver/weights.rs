@@ -8,17 +8,18 @@
 
 use serde::Serialize;
 
-use super::state::State;
-use crate::camera::Camera;
-use crate::frames::Derivatives;
 use crate::options::Options;
 
 /// μ/σ²: what the smoothness of depth counts.
 const MU_OVER_VARIANCE: f64 = 20.0;
 /// λ/σ²: what a pixel of curve counts.
 const LAMBDA_OVER_VARIANCE: f64 = 1.5;
+/// μ/σ² of the coarse-to-fine approach, whose ε is the slope of a surface.
+const MU_OF_LAYERS: f64 = 1.0;
 /// Least σ in grey levels: frames of 8 bits are not known better, derivatives included.
 const LEAST_SIGMA: f64 = 0.4;
+/// The same where frames are warped, and derivatives only tell directions.
+const LEAST_SIGMA_OF_LAYERS: f64 = 0.25;
 
 /// The weights in force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -37,11 +38,24 @@ pub struct Weights {
 impl Weights {
     /// Weights for a first residual of standard deviation `sigma`.
     pub(super) fn choose(sigma: f64, options: &Options) -> Self {
+        let sigma = sigma.max(LEAST_SIGMA);
         let first = Self {
             first_sigma: sigma,
             ..Self::default()
         };
         first.tightened(sigma, options)
+    }
+
+    /// Weights of the coarse-to-fine approach, whose residuals are those of depth alone throughout.
+    pub(super) fn of_layers(sigma: f64, options: &Options) -> Self {
+        let sigma = sigma.max(LEAST_SIGMA_OF_LAYERS);
+        let variance = sigma * sigma;
+        Self {
+            mu: options.mu.unwrap_or(MU_OF_LAYERS * variance),
+            lambda: options.lambda.unwrap_or(variance),
+            sigma,
+            first_sigma: sigma,
+        }
     }
 
     /// Whether they have been chosen yet.
@@ -51,6 +65,7 @@ impl Weights {
 
     /// The same with μ for a residual that has fallen to `sigma`, and whatever `options` set themselves.
     pub(super) fn tightened(self, sigma: f64, options: &Options) -> Self {
+        let sigma = sigma.max(LEAST_SIGMA);
         let (now, first) = (sigma * sigma, self.first_sigma * self.first_sigma);
         Self {
             mu: options.mu.unwrap_or(MU_OVER_VARIANCE * now),
@@ -66,11 +81,13 @@ impl Weights {
     }
 }
 
-/// σ of the residual as it is, grey levels.
-pub(super) fn sigma(state: &State, camera: &Camera, derivatives: &Derivatives) -> f64 {
-    let residual = state.residual(camera, derivatives);
-    let mut size: Vec<f32> = residual.data().iter().map(|psi| psi.abs()).collect();
-    let middle = size.len() / 2;
-    let (_, median, _) = size.select_nth_unstable_by(middle, f32::total_cmp);
-    (1.4826 * f64::from(*median)).max(LEAST_SIGMA)
+/// σ of residuals: 1.4826 times their median size, as for a Gaussian, whatever a minority does.
+pub(super) fn spread(mut residuals: Vec<f32>) -> f64 {
+    if residuals.is_empty() {
+        return 0.0;
+    }
+    let middle = residuals.len() / 2;
+    let (_, median, _) =
+        residuals.select_nth_unstable_by(middle, |a, b| a.abs().total_cmp(&b.abs()));
+    1.4826 * f64::from(median.abs())
 }

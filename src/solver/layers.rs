@@ -1,0 +1,468 @@
+//! Coarse to fine: every region a layer with its own motion and its own depth over the whole frame.
+//!
+//! The two frames are halved again and again. Small patches, matched from the coarsest scale on, propose
+//! the motions to start from. On the first scale regions are flat (ρ = 1) at first, while threshold
+//! dynamics finds roughly where they are; from then on motion is searched for with depth eliminated and
+//! refined together with depth. Curves move by threshold dynamics, and at last on the finest scale by
+//! (17). A scale is done after a set number of passes, the finest when all stands still. Each hypothesis
+//! is judged by its own depth, so that the present owner of a pixel is not favoured.
+
+use std::rc::Rc;
+
+use super::approach::Approach;
+use super::choice;
+use super::region::{Evidence, Region};
+use super::weights::{Weights, spread};
+use crate::camera::{Camera, RigidMotion};
+use crate::curves;
+use crate::depth::{self, FieldPrior};
+use crate::energy::Energy;
+use crate::frames::{FramePair, blur, doubled, halved, halved_camera};
+use crate::grid::Grid;
+use crate::interpretation::{Flow, Interpretation};
+use crate::motion::Kind;
+use crate::occlusion::occluded;
+use crate::options::{MotionMethod, Options};
+use crate::start::{self, Patch};
+use crate::warp::{Linearisation, RESIDUAL, Scale};
+
+/// No scale has a side shorter than this.
+const SMALLEST: usize = 28;
+/// Regions start on the coarsest scale whose shorter side is at least this.
+const STARTING: usize = 50;
+/// Passes on the first scale, and how many of them regions are flat for.
+const FIRST_PASSES: (usize, usize) = (10, 5);
+/// Passes on each scale between the first and the finest.
+const PASSES: usize = 6;
+/// Passes of threshold dynamics on the finest scale before (17) takes over.
+const THRESHOLD_PASSES: usize = 4;
+/// The pass, counted from a scale's last of threshold dynamics, in which kinds of motion are chosen.
+const CHOOSING: usize = 2;
+/// Joint steps in a pass.
+const JOINT_STEPS: usize = 2;
+/// Side of the blocks in which depth is eliminated, in pixels.
+const BLOCK: usize = 8;
+/// A region of fewer pixels than this keeps the motion that it has.
+const FEWEST: f32 = 8.0;
+/// A curve pays this, in variances, for pixels that are nearer to another by this share of the frame's
+/// width: of two that move alike, the nearer takes them.
+const FAR: (f64, f32) = (2.0, 0.05);
+
+/// The layers, and the scale at which they stand.
+pub(super) struct Layers {
+    pair: Rc<FramePair>,
+    /// The finest first.
+    scales: Vec<Scale>,
+    smoothing: f64,
+    level: usize,
+    start: usize,
+    pass: usize,
+    phi: Vec<Grid<f32>>,
+    labels: Grid<u8>,
+    regions: Vec<Region>,
+    weights: Weights,
+}
+
+impl Layers {
+    /// The start: curves as given, motions as patches propose, every region flat.
+    pub fn new(
+        pair: Rc<FramePair>,
+        camera: Camera,
+        level_sets: Vec<Grid<f32>>,
+        options: &Options,
+    ) -> Self {
+        let scales = pyramid(&pair, camera, options.smoothing);
+        let start = scales
+            .iter()
+            .rposition(|s| s.width().min(s.height()) >= STARTING)
+            .unwrap_or(0);
+        let (width, height) = (scales[start].width(), scales[start].height());
+        let regions = level_sets.len() + 1;
+        let mut layers = Self {
+            pair,
+            smoothing: options.smoothing,
+            level: start,
+            start,
+            pass: 0,
+            phi: Vec::new(),
+            labels: Grid::new(width, height, 0),
+            regions: vec![Region::new(width, height); regions],
+            weights: Weights::of_layers(f64::INFINITY, options),
+            scales,
+        };
+        layers.place_curves(level_sets);
+        layers.propose_motions();
+        layers
+    }
+
+    /// Motions to start from: what most patches agree on, and inside each curve what that leaves over.
+    fn propose_motions(&mut self) {
+        let patches = start::patches(&self.scales, self.level);
+        if patches.is_empty() {
+            return;
+        }
+        let camera = self.here().camera;
+        let within = |k: usize| -> Vec<f64> {
+            let inside = |p: &Patch| self.labels[(p.x as usize, p.y as usize)] == k as u8;
+            patches.iter().map(|p| f64::from(inside(p))).collect()
+        };
+        // Curves are drawn where a person saw something else move.
+        let outside: Vec<f64> = within(0).iter().map(|w| 0.3 + 0.7 * w).collect();
+        let background = start::dominant(&camera, &patches, &outside);
+        let motions: Vec<_> = (1..self.regions.len())
+            .map(|k| start::inside(&camera, &patches, &within(k), &background))
+            .collect();
+        self.regions[0].motion = background;
+        for (region, motion) in self.regions[1..].iter_mut().zip(motions) {
+            region.motion = motion;
+        }
+    }
+
+    /// Level sets of the frame's size brought to the scale at work.
+    fn place_curves(&mut self, mut level_sets: Vec<Grid<f32>>) {
+        for _ in 0..self.level {
+            for phi in &mut level_sets {
+                *phi = halved(phi).map(|p| 0.5 * p);
+            }
+        }
+        self.labels = curves::labels(&level_sets, self.labels.width(), self.labels.height());
+        self.phi = level_sets;
+    }
+
+    fn here(&self) -> &Scale {
+        &self.scales[self.level]
+    }
+
+    /// Passes of this scale in which regions have depth.
+    fn deep_passes(&self) -> Option<usize> {
+        let flat = if self.level == self.start && self.level > 0 {
+            FIRST_PASSES.1
+        } else {
+            0
+        };
+        self.pass.checked_sub(flat)
+    }
+
+    fn prior(&self, options: &Options) -> FieldPrior {
+        FieldPrior {
+            diffusion: options.diffusion,
+            strength: self.weights.mu,
+            epsilon: options.epsilon * f64::from(1u32 << self.level),
+        }
+    }
+
+    fn owned(&self, k: usize) -> Grid<f32> {
+        self.labels.map(|l| f32::from(usize::from(l) == k))
+    }
+
+    /// Calls `improve` with every region that still owns pixels, and what it is to be fitted to.
+    fn each_region(&mut self, options: &Options, improve: impl Fn(&mut Region, &Evidence)) {
+        for k in 0..self.regions.len() {
+            let owned = self.owned(k);
+            if owned.data().iter().sum::<f32>() < FEWEST {
+                continue;
+            }
+            let mut region = self.regions[k].clone();
+            let evidence = Evidence {
+                scale: self.here(),
+                owned: &owned,
+                sigma: self.weights.sigma,
+                robust: options.robust,
+            };
+            improve(&mut region, &evidence);
+            self.regions[k] = region;
+        }
+    }
+
+    fn linearisations(&self) -> Vec<Linearisation> {
+        let each = self.regions.iter();
+        each.map(|r| self.here().linearise(&r.motion, &r.rho))
+            .collect()
+    }
+
+    /// σ as the owners see it; while curves mean little, as the best of all regions does.
+    fn measure_noise(&mut self, lines: &[Linearisation], options: &Options) {
+        let flat = self.deep_passes().is_none();
+        let mut residuals = Vec::with_capacity(self.labels.len());
+        for (i, &k) in self.labels.data().iter().enumerate() {
+            let own = std::slice::from_ref(&lines[usize::from(k)]);
+            let seen = own[0].inside.data()[i];
+            if seen {
+                let judges = if flat { lines } else { own };
+                let least = judges.iter().map(|l| l.rows.data()[i][RESIDUAL].abs());
+                residuals.push(least.fold(f32::INFINITY, f32::min));
+            }
+        }
+        self.weights = Weights::of_layers(spread(residuals), options);
+    }
+
+    /// ξ of every region.
+    fn competition(&self, lines: &[Linearisation], options: &Options) -> Vec<Grid<f32>> {
+        let sigma = self.weights.sigma;
+        let mut xi: Vec<Grid<f32>> = lines
+            .iter()
+            .map(|line| curves::residual_in_units(line, sigma, options.normalised))
+            .collect();
+        let reach = FAR.1 * self.here().width() as f32;
+        let price = (FAR.0 * sigma * sigma) as f32;
+        for i in 0..self.labels.len() {
+            let inside = self.phi.iter().map(|phi| phi.data()[i]);
+            let nearest = inside.fold(f32::NEG_INFINITY, f32::max);
+            for (xi, phi) in xi[1..].iter_mut().zip(&self.phi) {
+                let farther = nearest - phi.data()[i];
+                xi.data_mut()[i] += price * (farther / reach).min(1.0);
+            }
+        }
+        xi
+    }
+
+    fn next_scale(&mut self) {
+        self.level -= 1;
+        self.pass = 0;
+        let (width, height) = (self.here().width(), self.here().height());
+        for phi in &mut self.phi {
+            *phi = doubled(phi, width, height).map(|p| 2.0 * p);
+        }
+        for region in &mut self.regions {
+            region.rho = doubled(&region.rho, width, height);
+        }
+        self.labels = curves::labels(&self.phi, width, height);
+    }
+
+    /// A field of the scale at work at the frame's size.
+    fn at_full_size(&self, field: &Grid<f32>) -> Grid<f32> {
+        let mut field = field.clone();
+        for finer in (0..self.level).rev() {
+            let scale = &self.scales[finer];
+            field = doubled(&field, scale.width(), scale.height());
+        }
+        field
+    }
+}
+
+impl Approach for Layers {
+    fn find_motions(&mut self, options: &Options) {
+        if self.weights.sigma.is_infinite() {
+            let lines = self.linearisations();
+            self.measure_noise(&lines, options);
+        }
+        let Some(pass) = self.deep_passes() else {
+            if self.pass > 0 {
+                self.each_region(options, |region, evidence| {
+                    for _ in 0..JOINT_STEPS {
+                        region.fit_flat(evidence);
+                    }
+                });
+            }
+            return;
+        };
+        let prior = self.prior(options);
+        let last = if self.level == 0 {
+            THRESHOLD_PASSES
+        } else {
+            PASSES
+        };
+        let choose = options.choose_kind
+            && pass + CHOOSING == last
+            && (self.level < self.start || self.level == 0);
+        self.each_region(options, |region, evidence| {
+            if options.motion == MotionMethod::LeastSquares {
+                region.fit_flat(evidence);
+                region.normalise(evidence.owned);
+                return;
+            }
+            if pass <= 1 && options.search {
+                region.search(evidence, &prior, BLOCK);
+            }
+            for _ in 0..JOINT_STEPS {
+                region.fit_jointly(evidence, &prior);
+                region.normalise(evidence.owned);
+            }
+            if choose {
+                *region = choice::chosen(region, evidence, &prior, BLOCK);
+            }
+        });
+    }
+
+    fn find_depth(&mut self, options: &Options) {
+        if self.deep_passes().is_some() {
+            let prior = self.prior(options);
+            self.each_region(options, |region, evidence| {
+                region.fit_depth(evidence, &prior);
+                region.normalise(evidence.owned);
+            });
+        }
+    }
+
+    fn move_curves(&mut self, options: &Options) {
+        let lines = self.linearisations();
+        self.measure_noise(&lines, options);
+        if self.phi.is_empty() {
+            return;
+        }
+        let xi = self.competition(&lines, options);
+        if self.level == 0 && self.pass >= THRESHOLD_PASSES {
+            curves::evolve(&mut self.phi, &xi, self.weights.lambda, options.curve_steps);
+        } else {
+            let sigma = match self.deep_passes() {
+                None => (2.5 - 0.25 * self.pass as f64).max(1.2),
+                Some(_) => 1.2,
+            };
+            self.phi = curves::threshold(&xi, sigma);
+        }
+        self.labels = curves::labels(&self.phi, self.labels.width(), self.labels.height());
+    }
+
+    fn end_pass(&mut self, _still: bool, _options: &Options) -> bool {
+        self.pass += 1;
+        if self.level == 0 {
+            return self.pass <= THRESHOLD_PASSES;
+        }
+        let most = if self.level == self.start {
+            FIRST_PASSES.0
+        } else {
+            PASSES
+        };
+        if self.pass >= most {
+            self.next_scale();
+        }
+        true
+    }
+
+    fn reconsider(&mut self, options: &Options) {
+        if options.smoothing != self.smoothing {
+            self.smoothing = options.smoothing;
+            self.scales = pyramid(&self.pair, self.scales[0].camera, options.smoothing);
+        }
+        self.weights = Weights::of_layers(self.weights.sigma, options);
+    }
+
+    fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>) {
+        let (width, height) = (self.labels.width(), self.labels.height());
+        self.regions
+            .resize(level_sets.len() + 1, Region::new(width, height));
+        self.place_curves(level_sets);
+    }
+
+    fn energy(&self, options: &Options) -> Energy {
+        if self.weights.sigma.is_infinite() {
+            return Energy::default();
+        }
+        let xi = self.competition(&self.linearisations(), options);
+        let owners = self.labels.data().iter().enumerate();
+        let data = owners
+            .map(|(i, &k)| f64::from(xi[usize::from(k)].data()[i]))
+            .sum::<f64>();
+        let prior = self.prior(options);
+        let deep = self.deep_passes().is_some();
+        let smoothness = |region: &Region| match deep && region.kind.translates() {
+            true => prior.edges(&region.rho).energy(&region.rho),
+            false => 0.0,
+        };
+        let length: f64 = self.phi.iter().map(curves::length).sum();
+        // In pixels of the frame: areas grow fourfold from scale to scale, lengths twofold.
+        let side = f64::from(1u32 << self.level);
+        Energy {
+            data: data * side * side,
+            smoothness: self.regions.iter().map(smoothness).sum::<f64>() * side * side,
+            length: self.weights.lambda * length * side,
+        }
+    }
+
+    fn labels(&self) -> &Grid<u8> {
+        &self.labels
+    }
+
+    fn level_sets(&self) -> Vec<Grid<f32>> {
+        let side = (1u32 << self.level) as f32;
+        let each = self.phi.iter();
+        each.map(|phi| self.at_full_size(phi).map(|p| side * p))
+            .collect()
+    }
+
+    fn motions(&self) -> Vec<(RigidMotion, Kind)> {
+        let camera = self.scales[0].camera;
+        let each = self.regions.iter();
+        each.map(|r| (r.motion, r.kind.min(Kind::seen(&camera, &r.motion))))
+            .collect()
+    }
+
+    fn weights(&self) -> Weights {
+        self.weights
+    }
+
+    fn scale(&self) -> (usize, usize) {
+        (self.level, self.start + 1)
+    }
+
+    fn interpretation(&self) -> Interpretation {
+        let finest = &self.scales[0];
+        let (width, height) = (finest.width(), finest.height());
+        let labels = curves::labels(&self.level_sets(), width, height);
+        let motions = self.motions();
+        let mut flow = Flow {
+            u: Grid::new(width, height, 0.0),
+            v: Grid::new(width, height, 0.0),
+        };
+        let mut depth = Grid::new(width, height, 1.0f32);
+        let mut confidence = Grid::new(width, height, 0.0f32);
+        let mut target = vec![[0.0f32; 2]; width * height];
+        let mut chi2 = vec![0.0f32; width * height];
+        for (k, region) in self.regions.iter().enumerate() {
+            let rho = self.at_full_size(&region.rho);
+            let line = finest.linearise(&region.motion, &rho);
+            let shows = motions[k].1.translates();
+            let slope = line.rows.map(|row| if shows { row[0] } else { 0.0 });
+            let certain = depth::confidence(&slope, self.weights.sigma);
+            for i in 0..labels.len() {
+                if usize::from(labels.data()[i]) != k {
+                    continue;
+                }
+                let (x, y) = ((i % width) as f64, (i / width) as f64);
+                let rho = rho.data()[i];
+                let (u, v) = finest
+                    .camera
+                    .displacement(&region.motion, x, y, f64::from(rho))
+                    .unwrap_or((0.0, 0.0));
+                flow.u.data_mut()[i] = u as f32;
+                flow.v.data_mut()[i] = v as f32;
+                depth.data_mut()[i] = rho.recip();
+                confidence.data_mut()[i] = if shows { certain.data()[i] } else { 0.0 };
+                target[i] = [(x + u) as f32, (y + v) as f32];
+                chi2[i] = curves::misfit(&line, i, self.weights.sigma, true);
+            }
+        }
+        let occluded = occluded(&labels, &target, &chi2);
+        for (c, &hidden) in confidence.data_mut().iter_mut().zip(occluded.data()) {
+            if hidden != 0 {
+                *c = 0.0;
+            }
+        }
+        Interpretation {
+            camera: finest.camera,
+            labels,
+            depth,
+            flow,
+            confidence,
+            occluded,
+            motions: motions.into_iter().map(|(motion, _)| motion).collect(),
+        }
+    }
+}
+
+/// The frames halved until a side would fall below [`SMALLEST`].
+fn pyramid(pair: &FramePair, mut camera: Camera, smoothing: f64) -> Vec<Scale> {
+    let mut first = blur(&pair.first().grey, smoothing);
+    let mut second = blur(&pair.second().grey, smoothing);
+    let mut scales = Vec::new();
+    loop {
+        let smaller = first.width().min(first.height()) / 2;
+        let next = (smaller >= SMALLEST).then(|| (halved(&first), halved(&second)));
+        scales.push(Scale::new(camera, first, second));
+        let Some(halves) = next else {
+            return scales;
+        };
+        (first, second) = halves;
+        camera = halved_camera(&camera);
+    }
+}
