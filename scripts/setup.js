@@ -51,59 +51,54 @@ async function linker() {
 }
 
 async function rust() {
-  // Found, not asked: any answer of rustup's in here might begin with installing a compiler unannounced.
   if (which("rustup") === null) return rustWithoutRustup();
-  const channel = process.env.RUSTUP_TOOLCHAIN ?? wanted();
-  const installed = ask("rustup", "toolchain", "list") ?? "";
-  if (!installed.split("\n").some((line) => line.startsWith(channel))) {
-    await stage(`Rust ${channel}`, () =>
-      run("rustup", [
-        ...["toolchain", "install", channel, "--profile", "minimal", "--no-self-update"],
-        ...["--target", WASM, "--component", "clippy", "--component", "rustfmt"],
-      ]),
-    );
+  // rustup alone brings no compiler; asking it for one would begin to install it unannounced.
+  if (installedToolchains() === "") {
+    await stage("Rust", () => run("rustup", ["default", "stable"]));
   }
-  const targets = ask("rustup", "target", "list", "--installed", "--toolchain", channel) ?? "";
-  if (!targets.split("\n").includes(WASM)) {
-    await stage(`Rust's ${WASM} target`, () =>
-      run("rustup", ["target", "add", WASM, "--toolchain", channel]),
-    );
+  newEnough("rustup update stable && rustup default stable");
+  if (!(ask("rustup", "target", "list", "--installed") ?? "").split("\n").includes(WASM)) {
+    await stage(`Rust's ${WASM} target`, () => run("rustup", ["target", "add", WASM]));
   }
-  const components =
-    ask("rustup", "component", "list", "--installed", "--toolchain", channel) ?? "";
+  const components = ask("rustup", "component", "list", "--installed") ?? "";
   for (const component of ["clippy", "rustfmt"]) {
     if (components.split("\n").some((line) => line.startsWith(component))) continue;
-    await stage(`Rust's ${component}`, () =>
-      run("rustup", ["component", "add", component, "--toolchain", channel]),
-    );
+    await stage(`Rust's ${component}`, () => run("rustup", ["component", "add", component]));
   }
+}
+
+/** What rustup has installed, empty when that is nothing. */
+function installedToolchains() {
+  const list = ask("rustup", "toolchain", "list") ?? "";
+  return list.startsWith("no installed") ? "" : list;
 }
 
 /** A Rust from elsewhere will do when it is new enough and knows the wasm target. */
 function rustWithoutRustup() {
-  const version = ask("rustc", "--version");
-  if (ask("cargo", "--version") === null || version === null) {
-    throw new Trouble(`Rust is missing. Install it with: ${RUSTUP}`);
-  }
-  const [, major = "0", minor = "0"] = /(\d+)\.(\d+)/.exec(version) ?? [];
-  const [, leastMinor = "0"] = wanted().split(".");
-  if (major === "1" && Number(minor) < Number(leastMinor)) {
-    throw new Trouble(
-      `${version} is too old: ${wanted()} is needed. Install rustup, which brings it, with: ${RUSTUP}`,
-    );
-  }
+  newEnough(RUSTUP);
   const library = ask("rustc", "--print", "target-libdir", "--target", WASM);
   if (library === null || !existsSync(library)) {
     throw new Trouble(
-      `${version} cannot compile for ${WASM}, and there is no rustup to add it. Install rustup with: ${RUSTUP}`,
+      `This Rust cannot compile for ${WASM}, and there is no rustup to add it. Install rustup with: ${RUSTUP}`,
     );
   }
 }
 
-/** The toolchain that `rust-toolchain.toml` pins. */
-function wanted() {
-  const text = readFileSync(join(root, "rust-toolchain.toml"), "utf8");
-  return /channel = "(.*)"/.exec(text)?.[1] ?? "stable";
+/**
+ * Refuses a compiler older than Cargo.toml's `rust-version`.
+ * @param {string} remedy the command that installs a newer one
+ */
+function newEnough(remedy) {
+  const version = ask("rustc", "--version");
+  if (ask("cargo", "--version") === null || version === null) {
+    throw new Trouble(`Rust is missing. Install it with: ${remedy}`);
+  }
+  const manifest = readFileSync(join(root, "Cargo.toml"), "utf8");
+  const [, least = "0"] = /^rust-version = "1\.(\d+)/m.exec(manifest) ?? [];
+  const [, minor = "0"] = /^rustc 1\.(\d+)/.exec(version) ?? [];
+  if (Number(minor) < Number(least)) {
+    throw new Trouble(`${version} is too old: 1.${least} is needed. Install it with: ${remedy}`);
+  }
 }
 
 async function packages() {

@@ -12,7 +12,6 @@ const SOURCES = [
   "Cargo.toml",
   "Cargo.lock",
   ".cargo",
-  "rust-toolchain.toml",
   "package-lock.json",
   "scripts/wasm.js",
 ];
