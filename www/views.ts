@@ -117,7 +117,7 @@ export const VIEWS: View[] = [
   {
     id: "occlusion",
     label: "Occlusion",
-    hint: "In colour: what the second frame hides.",
+    hint: "In colour: what the second frame hides, as far as the preset looks for it.",
     kinds: () => ["occlusion"],
     settings: () => [ON_TOP],
     crisp: true,

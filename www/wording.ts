@@ -2,10 +2,12 @@
 
 import type { Report } from "./worker/protocol";
 
-/** The core's sentences begin small and end bare, so that they fit into others. */
+/**
+ * The core's sentences begin small and end bare, so that they fit into others. One that begins with
+ * a file's name keeps it as it is.
+ */
 export function sentence(text: string): string {
-  const trimmed = text.trim();
-  const whole = trimmed.charAt(0).toUpperCase() + trimmed.slice(1);
+  const whole = text.trim().replace(/^[a-z](?=[a-z]*[\s,:])/, (letter) => letter.toUpperCase());
   return /[.!?]$/.test(whole) ? whole : `${whole}.`;
 }
 

@@ -57,7 +57,7 @@ export function standing({ report, running, started, busy, frames }: Readonly<St
     report.levels > 1 ? ` · scale ${report.levels - report.level} of ${report.levels}` : "";
   const state = running ? "Running" : ENDED[report.status];
   const time = report.seconds.total > 0 ? ` · ${seconds(report.seconds.total)}` : "";
-  return `${state} · ${passes}${scale} · E ${number(report.energy.total)}${time}`;
+  return `${state} · ${passes}${scale} · E\u00a0${number(report.energy.total)}${time}`;
 }
 
 const ENDED: Record<string, string> = {
