@@ -12,8 +12,11 @@
 //! Grey levels throughout; x' in pixels from the principal point.
 
 use crate::camera::{Camera, RigidMotion};
-use crate::frames::gradient;
+use crate::frames::{FramePair, blur, gradient, halved, halved_camera};
 use crate::grid::Grid;
+
+/// No scale of [`pyramid`] has a side shorter than this, unless the frames have.
+pub const SMALLEST: usize = 28;
 
 /// ∂r/∂ρ, ∂r/∂T (3), ∂r/∂ω (3) and r at one pixel.
 pub type Row = [f32; 8];
@@ -127,5 +130,23 @@ impl Scale {
             flow,
             inside,
         }
+    }
+}
+
+/// Two frames, smoothed with standard deviation `smoothing`, and halved until a side would fall below
+/// [`SMALLEST`]: the finest scale first.
+pub fn pyramid(pair: &FramePair, mut camera: Camera, smoothing: f64) -> Vec<Scale> {
+    let mut first = blur(&pair.first().grey, smoothing);
+    let mut second = blur(&pair.second().grey, smoothing);
+    let mut scales = Vec::new();
+    loop {
+        let smaller = first.width().min(first.height()) / 2;
+        let next = (smaller >= SMALLEST).then(|| (halved(&first), halved(&second)));
+        scales.push(Scale::new(camera, first, second));
+        let Some(halves) = next else {
+            return scales;
+        };
+        (first, second) = halves;
+        camera = halved_camera(&camera);
     }
 }

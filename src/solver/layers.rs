@@ -11,23 +11,21 @@ use std::rc::Rc;
 
 use super::approach::Approach;
 use super::choice;
+use super::composition::{Layer, composed};
 use super::region::{Evidence, Region};
 use super::weights::{Weights, spread};
 use crate::camera::{Camera, RigidMotion};
 use crate::curves;
-use crate::depth::{self, FieldPrior};
+use crate::depth::FieldPrior;
 use crate::energy::Energy;
-use crate::frames::{FramePair, blur, doubled, halved, halved_camera};
+use crate::frames::{FramePair, doubled, halved};
 use crate::grid::Grid;
-use crate::interpretation::{Flow, Interpretation};
+use crate::interpretation::Interpretation;
 use crate::motion::Kind;
-use crate::occlusion::occluded;
 use crate::options::{MotionMethod, Options};
 use crate::start::{self, Patch};
-use crate::warp::{Linearisation, RESIDUAL, Scale};
+use crate::warp::{Linearisation, RESIDUAL, Scale, pyramid};
 
-/// No scale has a side shorter than this.
-const SMALLEST: usize = 28;
 /// Regions start on the coarsest scale whose shorter side is at least this.
 const STARTING: usize = 50;
 /// Passes on the first scale, and how many of them regions are flat for.
@@ -396,73 +394,21 @@ impl Approach for Layers {
     }
 
     fn interpretation(&self) -> Interpretation {
-        let finest = &self.scales[0];
-        let (width, height) = (finest.width(), finest.height());
-        let labels = curves::labels(&self.level_sets(), width, height);
-        let motions = self.motions();
-        let mut flow = Flow {
-            u: Grid::new(width, height, 0.0),
-            v: Grid::new(width, height, 0.0),
-        };
-        let mut depth = Grid::new(width, height, 1.0f32);
-        let mut confidence = Grid::new(width, height, 0.0f32);
-        let mut target = vec![[0.0f32; 2]; width * height];
-        let mut chi2 = vec![0.0f32; width * height];
-        for (k, region) in self.regions.iter().enumerate() {
-            let rho = self.at_full_size(&region.rho);
-            let line = finest.linearise(&region.motion, &rho);
-            let shows = motions[k].1.translates();
-            let slope = line.rows.map(|row| if shows { row[0] } else { 0.0 });
-            let certain = depth::confidence(&slope, self.weights.sigma);
-            for i in 0..labels.len() {
-                if usize::from(labels.data()[i]) != k {
-                    continue;
-                }
-                let (x, y) = ((i % width) as f64, (i / width) as f64);
-                let rho = rho.data()[i];
-                let (u, v) = finest
-                    .camera
-                    .displacement(&region.motion, x, y, f64::from(rho))
-                    .unwrap_or((0.0, 0.0));
-                flow.u.data_mut()[i] = u as f32;
-                flow.v.data_mut()[i] = v as f32;
-                depth.data_mut()[i] = rho.recip();
-                confidence.data_mut()[i] = if shows { certain.data()[i] } else { 0.0 };
-                target[i] = [(x + u) as f32, (y + v) as f32];
-                chi2[i] = curves::misfit(&line, i, self.weights.sigma, true);
-            }
-        }
-        let occluded = occluded(&labels, &target, &chi2);
-        for (c, &hidden) in confidence.data_mut().iter_mut().zip(occluded.data()) {
-            if hidden != 0 {
-                *c = 0.0;
-            }
-        }
-        Interpretation {
-            camera: finest.camera,
-            labels,
-            depth,
-            flow,
-            confidence,
-            occluded,
-            motions: motions.into_iter().map(|(motion, _)| motion).collect(),
-        }
-    }
-}
-
-/// The frames halved until a side would fall below [`SMALLEST`].
-fn pyramid(pair: &FramePair, mut camera: Camera, smoothing: f64) -> Vec<Scale> {
-    let mut first = blur(&pair.first().grey, smoothing);
-    let mut second = blur(&pair.second().grey, smoothing);
-    let mut scales = Vec::new();
-    loop {
-        let smaller = first.width().min(first.height()) / 2;
-        let next = (smaller >= SMALLEST).then(|| (halved(&first), halved(&second)));
-        scales.push(Scale::new(camera, first, second));
-        let Some(halves) = next else {
-            return scales;
-        };
-        (first, second) = halves;
-        camera = halved_camera(&camera);
+        let read: Vec<Layer> = self
+            .regions
+            .iter()
+            .zip(self.motions())
+            .map(|(region, (motion, kind))| Layer {
+                motion,
+                kind,
+                rho: self.at_full_size(&region.rho),
+            })
+            .collect();
+        composed(
+            &self.scales[0],
+            &self.level_sets(),
+            &read,
+            self.weights.sigma,
+        )
     }
 }

@@ -9,6 +9,7 @@
 
 mod approach;
 mod choice;
+mod composition;
 mod layers;
 mod region;
 mod report;
