@@ -53,7 +53,7 @@ fn accuracy(preset: Preset, names: &[&str]) -> Result<(), Box<dyn Error>> {
         let baseline = horn_schunck::solve(solver.pair(), ALPHA, SWEEPS);
         let baseline = compare_flow(&baseline, &truth.flow, None)?;
         println!(
-            "| `{name}` | {:.1} | {} | {} | {} | {} | {} | {} | {} | {} | {:.2} |",
+            "| `{name}` | {:.1} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
             100.0 * scores.labels_wrong,
             number(scores.aee, 3),
             number(baseline.map(|(aee, _)| aee), 3),
@@ -63,7 +63,7 @@ fn accuracy(preset: Preset, names: &[&str]) -> Result<(), Box<dyn Error>> {
             list(&observable(&scores, &scores.flat_depth_error), 100.0),
             solver.iterations(),
             word(solver.status()),
-            100.0 * rise(solver.history()),
+            number(rise(&solver).map(|r| 100.0 * r), 2),
         );
     }
     println!(
@@ -134,14 +134,14 @@ fn observable(scores: &Scores, figures: &[Option<f64>]) -> Vec<Option<f64>> {
     pairs.map(|(&f, t)| if t { f } else { None }).collect()
 }
 
-/// The largest relative rise of the energy from a pass to one of the ten after it.
-fn rise(history: &[f64]) -> f64 {
+/// The largest relative rise of the energy from a pass to one of the ten after it; energies of
+/// different scales do not compare.
+fn rise(solver: &Solver) -> Option<f64> {
+    let history = solver.history();
     let later = |i: usize| history.iter().skip(i + 1).take(10);
-    let rises = history
-        .iter()
-        .enumerate()
-        .flat_map(|(i, e)| later(i).map(move |l| l / e - 1.0));
-    rises.fold(0.0, f64::max)
+    let passes = history.iter().enumerate();
+    let rises = passes.flat_map(|(i, e)| later(i).map(move |l| l / e - 1.0));
+    (solver.report().levels == 1).then(|| rises.fold(0.0, f64::max))
 }
 
 fn differing(a: &[u8], b: &[u8]) -> f64 {
