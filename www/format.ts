@@ -32,7 +32,7 @@ export function count(value: number): string {
 
 /** Seconds, coarse enough not to flicker. */
 export function seconds(value: number): string {
-  return value < 10 ? `${fixed(value, 1)} s` : `${fixed(value, 0)} s`;
+  return value < 10 ? `${fixed(value, 1)}\u00a0s` : `${fixed(value, 0)}\u00a0s`;
 }
 
 /** For axes: 1.5M. */
