@@ -153,6 +153,15 @@ impl Layers {
         self.labels.map(|l| f32::from(usize::from(l) == k))
     }
 
+    fn evidence<'a>(&'a self, owned: &'a Grid<f32>, options: &Options) -> Evidence<'a> {
+        Evidence {
+            scale: self.here(),
+            owned,
+            sigma: self.weights.sigma,
+            robust: options.robust,
+        }
+    }
+
     /// Calls `improve` with every region that still owns pixels, and what it is to be fitted to.
     fn each_region(&mut self, options: &Options, improve: impl Fn(&mut Region, &Evidence)) {
         for k in 0..self.regions.len() {
@@ -161,13 +170,7 @@ impl Layers {
                 continue;
             }
             let mut region = self.regions[k].clone();
-            let evidence = Evidence {
-                scale: self.here(),
-                owned: &owned,
-                sigma: self.weights.sigma,
-                robust: options.robust,
-            };
-            improve(&mut region, &evidence);
+            improve(&mut region, &self.evidence(&owned, options));
             self.regions[k] = region;
         }
     }
@@ -346,23 +349,32 @@ impl Approach for Layers {
         if self.weights.sigma.is_infinite() {
             return Energy::default();
         }
-        let xi = self.competition(&self.linearisations(), options);
+        let lines = self.linearisations();
+        let xi = self.competition(&lines, options);
         let owners = self.labels.data().iter().enumerate();
         let data = owners
             .map(|(i, &k)| f64::from(xi[usize::from(k)].data()[i]))
             .sum::<f64>();
         let prior = self.prior(options);
         let deep = self.deep_passes().is_some();
-        let smoothness = |region: &Region| match deep && region.kind.translates() {
-            true => prior.edges(&region.rho).energy(&region.rho),
-            false => 0.0,
+        // Of what departs from the region's plane: that is what is smoothed.
+        let smoothness = |(k, region): (usize, &Region)| {
+            if !(deep && region.kind.translates()) {
+                return 0.0;
+            }
+            let weight = self.evidence(&self.owned(k), options).weights(&lines[k]);
+            if weight.data().iter().all(|w| *w <= 0.0) {
+                return 0.0;
+            }
+            let departure = region.departure(&lines[k], &weight);
+            prior.edges(&departure).energy(&departure)
         };
         let length: f64 = self.phi.iter().map(curves::length).sum();
         // In pixels of the frame: areas grow fourfold from scale to scale, lengths twofold.
         let side = f64::from(1u32 << self.level);
         Energy {
             data: data * side * side,
-            smoothness: self.regions.iter().map(smoothness).sum::<f64>() * side * side,
+            smoothness: self.regions.iter().enumerate().map(smoothness).sum::<f64>() * side * side,
             length: self.weights.lambda * length * side,
         }
     }
