@@ -319,7 +319,7 @@ impl Region {
         for (rho, d) in self.rho.data_mut().iter_mut().zip(step) {
             // No more than half of what is there: the linearisation holds no further.
             let limit = 0.5 * *rho + 0.1;
-            *rho = (*rho + d.clamp(-limit, limit)).clamp(RHO_RANGE[0], RHO_RANGE[1]);
+            *rho = (*rho + d.max(-limit).min(limit)).clamp(RHO_RANGE[0], RHO_RANGE[1]);
         }
     }
 }

@@ -49,7 +49,8 @@ pub fn dominant(camera: &Camera, patches: &[Patch], weight: &[f64]) -> RigidMoti
     settle(camera, patches, weight, best.0, ROTATION[0])
 }
 
-/// The motion that best explains what `background` leaves unexplained among the weighted patches.
+/// The motion that best explains what `background` leaves unexplained among the weighted patches;
+/// `background` itself when nothing is left.
 pub fn inside(
     camera: &Camera,
     patches: &[Patch],
@@ -132,8 +133,11 @@ fn limited(patch: &Patch) -> [f64; 3] {
     [r / det, -q / det, p / det]
 }
 
-/// The flat motion nearest to the patches.
+/// The flat motion nearest to the patches; `None` when none of them counts.
 fn fit(camera: &Camera, patches: &[Patch], weight: &[f64], rotation: f64) -> Option<RigidMotion> {
+    if weight.iter().all(|w| *w <= 0.0) {
+        return None;
+    }
     let f = camera.focal;
     let mut normal = [[0.0; 6]; 6];
     let mut right = [0.0; 6];

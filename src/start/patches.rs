@@ -54,6 +54,9 @@ fn follow(scales: &[Scale], level: usize, x: f32, y: f32) -> Option<Patch> {
             motion = motion.map(|m| 2.0 * m);
         }
         patch = place(&scales[finer], px, py, &mut motion);
+        if !motion.iter().all(|m| m.is_finite()) {
+            return None;
+        }
     }
     patch.map(|precision| Patch {
         x,
