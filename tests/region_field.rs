@@ -1,0 +1,161 @@
+//! A region's inverse depth: what smooths it, and how far it shows.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use relievo::Grid;
+use relievo::depth::{FieldPrior, confidence, fitted_plane};
+use relievo::options::Diffusion;
+
+const W: usize = 13;
+const H: usize = 9;
+
+/// Numbers from −1 to 1 that look like noise.
+fn noise(x: usize, y: usize) -> f32 {
+    ((x * 7919 + y * 104_729 + x * y * 13) % 2001) as f32 / 1000.0 - 1.0
+}
+
+fn rough() -> Grid<f32> {
+    Grid::from_fn(W, H, |x, y| 0.5 * noise(x, y) + 0.1 * x as f32)
+}
+
+fn prior(diffusion: Diffusion) -> FieldPrior {
+    FieldPrior {
+        diffusion,
+        strength: 0.3,
+        epsilon: 0.5,
+    }
+}
+
+fn dot(a: &Grid<f32>, b: &Grid<f32>) -> f64 {
+    let pairs = a.data().iter().zip(b.data());
+    pairs.map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
+}
+
+#[test]
+fn the_pull_is_down_the_slope_of_the_energy() {
+    let field = rough();
+    let edges = prior(Diffusion::Isotropic).edges(&field);
+    let pull = edges.pull(&field);
+    for at in [(0, 0), (W - 1, 0), (0, H - 1), (W - 1, H - 1), (5, 4)] {
+        let energy = |by: f32| {
+            let mut moved = field.clone();
+            moved[at] += by;
+            edges.energy(&moved)
+        };
+        let slope = (energy(0.1) - energy(-0.1)) / 0.2;
+        let half = -0.5 * slope;
+        let found = f64::from(pull[at]);
+        assert!(
+            (found - half).abs() < 1e-4 * (1.0 + half.abs()),
+            "{found} against {half}"
+        );
+    }
+    // Smoothing moves depth about, and makes none.
+    assert!(pull.data().iter().sum::<f32>().abs() < 1e-4);
+}
+
+#[test]
+fn energy_pull_and_system_are_one_operator() {
+    for diffusion in [Diffusion::Isotropic, Diffusion::Anisotropic] {
+        let field = rough();
+        let edges = prior(diffusion).edges(&field);
+        let pull = edges.pull(&field);
+        // ρᵀLρ = −ρ·pull(ρ).
+        let energy = edges.energy(&field);
+        assert!((energy + dot(&field, &pull)).abs() < 1e-4 * energy);
+        // With d = 1: (1 + L) ρ = ρ − pull(ρ).
+        let system = edges.system(W, H, vec![1.0; W * H]);
+        let right = field.data().iter().zip(pull.data());
+        let right: Vec<[f32; 1]> = right.map(|(r, p)| [r - p]).collect();
+        let mut found = vec![[0.0f32; 1]; W * H];
+        system.solve(&right, &mut found, 1e-6, 100);
+        for ([a], b) in found.iter().zip(field.data()) {
+            assert!((a - b).abs() < 1e-3, "{a} for {b}");
+        }
+        // And Σ c around a pixel is what a spike there pays.
+        for at in [(0, 0), (W - 1, 3), (6, H - 1), (6, 4)] {
+            let mut spike = Grid::new(W, H, 0.0f32);
+            spike[at] = 1.0;
+            let around = edges.around(at.1 * W + at.0, W);
+            assert!((edges.energy(&spike) - around).abs() < 1e-5 * around);
+        }
+    }
+}
+
+#[test]
+fn an_edge_of_depth_is_smoothed_less_where_edges_are_kept() {
+    let step = Grid::from_fn(W, H, |x, _| if x < 6 { 0.0 } else { 5.0 });
+    let at_step = |diffusion| {
+        let mut spike = Grid::new(W, H, 0.0f32);
+        spike[(5, 4)] = 1.0;
+        prior(diffusion).edges(&step).energy(&spike)
+    };
+    assert!(at_step(Diffusion::Anisotropic) < 0.6 * at_step(Diffusion::Isotropic));
+    // Far below ε both are the same.
+    let faint = rough().map(|r| 1e-4 * r);
+    let (a, b) = [Diffusion::Anisotropic, Diffusion::Isotropic]
+        .map(|d| prior(d).edges(&faint).energy(&faint))
+        .into();
+    assert!((a - b).abs() < 1e-5 * b);
+}
+
+#[test]
+fn a_plane_costs_nothing() {
+    let plane = Grid::from_fn(W, H, |x, y| 1.3 - 0.04 * x as f32 + 0.07 * y as f32);
+    // Known in a corner only, the plane goes on beyond.
+    let corner = Grid::from_fn(W, H, |x, y| f32::from(x < 5 && y < 4));
+    // What lies outside the weight does not count.
+    let spoilt = Grid::from_fn(W, H, |x, y| {
+        plane[(x, y)] + if x < 5 && y < 4 { 0.0 } else { noise(x, y) }
+    });
+    let fitted = fitted_plane(&spoilt, &corner);
+    for (a, b) in fitted.data().iter().zip(plane.data()) {
+        assert!((a - b).abs() < 1e-4, "{a} for {b}");
+    }
+    let mut departure = plane.clone();
+    for (d, p) in departure.data_mut().iter_mut().zip(fitted.data()) {
+        *d -= p;
+    }
+    for diffusion in [Diffusion::Isotropic, Diffusion::Anisotropic] {
+        let prior = prior(diffusion);
+        let edges = prior.edges(&departure);
+        let steep = prior.edges(&plane).energy(&plane);
+        assert!(edges.energy(&departure) < 1e-6 * steep);
+    }
+    // Nothing known: the depth that every region starts from.
+    let nowhere = fitted_plane(&plane, &Grid::new(W, H, 0.0));
+    assert!(nowhere.data().iter().all(|r| *r == 1.0));
+}
+
+#[test]
+fn confidence_grows_with_what_shows() {
+    let of = |slope: f32, sigma: f64| confidence(&Grid::new(31, 31, slope), sigma)[(15, 15)];
+    assert_eq!(of(0.0, 1.0), 0.0);
+    let mut before = 0.0;
+    for slope in [0.1, 0.3, 1.0, 3.0, 10.0] {
+        let c = of(slope, 1.0);
+        assert!(c > before && c < 1.0);
+        assert_eq!(of(-slope, 1.0), c);
+        assert!(of(slope, 2.0) < c);
+        before = c;
+    }
+    assert!(before > 0.99);
+    // ½ where ρ is known to 0.15: 4π 2.5² pixels of slope a know it to σ / (a √(4π 2.5²)).
+    let pixels = 4.0 * std::f64::consts::PI * 2.5 * 2.5;
+    for sigma in [0.5, 2.0] {
+        let half = (sigma / (0.15 * pixels.sqrt())) as f32;
+        assert!((of(half, sigma) - 0.5).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn confidence_reaches_as_far_as_smoothing_does() {
+    let slope = Grid::from_fn(60, 20, |x, _| if x < 30 { 4.0 } else { 0.0 });
+    let c = confidence(&slope, 1.0);
+    assert!(c[(10, 10)] > 0.9 && c[(29, 10)] > 0.5);
+    assert_eq!(c[(50, 10)], 0.0);
+    for x in 0..59 {
+        assert!(c[(x + 1, 10)] <= c[(x, 10)] + 1e-6);
+    }
+}
