@@ -89,12 +89,16 @@ impl Layers {
             scales,
         };
         layers.place_curves(level_sets);
-        layers.propose_motions();
+        layers.propose_motions(0);
         layers
     }
 
-    /// Motions to start from: what most patches agree on, and inside each curve what that leaves over.
-    fn propose_motions(&mut self) {
+    /// Motions for the regions from label `first` on: what most patches agree on, and inside each curve
+    /// what that leaves over.
+    fn propose_motions(&mut self, first: usize) {
+        if first >= self.regions.len() {
+            return;
+        }
         let patches = start::patches(&self.scales, self.level);
         if patches.is_empty() {
             return;
@@ -107,11 +111,13 @@ impl Layers {
         // Curves are drawn where a person saw something else move.
         let outside: Vec<f64> = within(0).iter().map(|w| 0.3 + 0.7 * w).collect();
         let background = start::dominant(&camera, &patches, &outside);
-        let motions: Vec<_> = (1..self.regions.len())
-            .map(|k| start::inside(&camera, &patches, &within(k), &background))
+        let motions: Vec<_> = (first..self.regions.len())
+            .map(|k| match k {
+                0 => background,
+                _ => start::inside(&camera, &patches, &within(k), &background),
+            })
             .collect();
-        self.regions[0].motion = background;
-        for (region, motion) in self.regions[1..].iter_mut().zip(motions) {
+        for (region, motion) in self.regions[first..].iter_mut().zip(motions) {
             region.motion = motion;
         }
     }
@@ -340,9 +346,14 @@ impl Approach for Layers {
 
     fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>) {
         let (width, height) = (self.labels.width(), self.labels.height());
+        let known = self.regions.len();
+        // The search for motions and threshold dynamics, which end with a scale's first passes, are
+        // needed again.
+        self.pass = 0;
         self.regions
             .resize(level_sets.len() + 1, Region::new(width, height));
         self.place_curves(level_sets);
+        self.propose_motions(known);
     }
 
     fn energy(&self, options: &Options) -> Energy {

@@ -4,7 +4,7 @@
 //! motion → depth → curves. The solver stops as
 //! - *converged* when, for three passes running, at most `tolerance` of all pixels change region and
 //!   the energy changes by less than a thousandth,
-//! - *exhausted* (out of iterations) after `max_passes`,
+//! - *exhausted* (out of iterations) after `max_passes` since the curves were drawn,
 //! - *diverged* when the energy is no longer a finite number.
 
 mod approach;
@@ -63,6 +63,8 @@ pub struct Solver {
     approach: Box<dyn Approach>,
     status: Status,
     history: Vec<f64>,
+    /// Passes that had been made when the curves were drawn last.
+    drawn_at: usize,
     still: usize,
     seconds: Seconds,
     clock: fn() -> f64,
@@ -92,6 +94,7 @@ impl Solver {
             options,
             status: Status::Running,
             history: Vec::new(),
+            drawn_at: 0,
             still: 0,
             seconds: Seconds::default(),
             clock: || 0.0,
@@ -137,7 +140,7 @@ impl Solver {
             Status::Diverged
         } else if self.still >= STILL_PASSES {
             Status::Converged
-        } else if self.history.len() >= self.options.max_passes {
+        } else if self.used_up() {
             Status::Exhausted
         } else {
             Status::Running
@@ -228,6 +231,7 @@ impl Solver {
         let level_sets = level_sets(&self.pair, shapes)?;
         self.shapes = shapes.to_vec();
         self.approach.replace_curves(level_sets);
+        self.drawn_at = self.history.len();
         self.resume();
         Ok(())
     }
@@ -237,6 +241,7 @@ impl Solver {
         let level_sets = level_sets(&self.pair, &self.shapes).unwrap_or_default();
         self.approach = begin(&self.pair, self.camera, level_sets, &self.options);
         self.history.clear();
+        self.drawn_at = 0;
         self.seconds = Seconds::default();
         self.resume();
     }
@@ -258,9 +263,13 @@ impl Solver {
         Report::of(self)
     }
 
+    fn used_up(&self) -> bool {
+        self.history.len() - self.drawn_at >= self.options.max_passes
+    }
+
     fn resume(&mut self) {
         self.still = 0;
-        self.status = if self.history.len() >= self.options.max_passes {
+        self.status = if self.used_up() {
             Status::Exhausted
         } else {
             Status::Running
