@@ -36,6 +36,8 @@ const PASSES: usize = 6;
 const THRESHOLD_PASSES: usize = 4;
 /// The pass, counted from a scale's last of threshold dynamics, in which kinds of motion are chosen.
 const CHOOSING: usize = 2;
+/// The pass on the finest scale in which they are chosen again, depth being known in detail by then.
+const CHOOSING_AGAIN: usize = THRESHOLD_PASSES + 3;
 /// Joint steps in a pass.
 const JOINT_STEPS: usize = 2;
 /// Side of the blocks in which depth is eliminated, in pixels.
@@ -85,7 +87,7 @@ impl Layers {
             phi: Vec::new(),
             labels: Grid::new(width, height, 0),
             regions: vec![Region::new(width, height); regions],
-            weights: Weights::of_layers(f64::INFINITY, options),
+            weights: Weights::of_layers(f64::INFINITY, false, options),
             scales,
         };
         layers.place_curves(level_sets);
@@ -147,6 +149,11 @@ impl Layers {
         self.pass.checked_sub(flat)
     }
 
+    /// Whether regions are where they should be, to the pixel, and kinds of motion are chosen.
+    fn settled(&self) -> bool {
+        self.level == 0 && self.pass >= THRESHOLD_PASSES
+    }
+
     fn prior(&self, options: &Options) -> FieldPrior {
         FieldPrior {
             diffusion: options.diffusion,
@@ -200,7 +207,7 @@ impl Layers {
                 residuals.push(least.fold(f32::INFINITY, f32::min));
             }
         }
-        self.weights = Weights::of_layers(spread(residuals), options);
+        self.weights = Weights::of_layers(spread(residuals), self.settled(), options);
     }
 
     /// ξ of every region.
@@ -270,8 +277,8 @@ impl Approach for Layers {
             PASSES
         };
         let choose = options.choose_kind
-            && pass + CHOOSING == last
-            && (self.level < self.start || self.level == 0);
+            && (self.level < self.start || self.level == 0)
+            && (pass + CHOOSING == last || self.level == 0 && pass == CHOOSING_AGAIN);
         self.each_region(options, |region, evidence| {
             if options.motion == MotionMethod::LeastSquares {
                 region.fit_flat(evidence);
@@ -308,7 +315,7 @@ impl Approach for Layers {
             return;
         }
         let xi = self.competition(&lines, options);
-        if self.level == 0 && self.pass >= THRESHOLD_PASSES {
+        if self.settled() {
             curves::evolve(&mut self.phi, &xi, self.weights.lambda, options.curve_steps);
         } else {
             let sigma = match self.deep_passes() {
@@ -323,7 +330,7 @@ impl Approach for Layers {
     fn end_pass(&mut self, _still: bool, _options: &Options) -> bool {
         self.pass += 1;
         if self.level == 0 {
-            return self.pass <= THRESHOLD_PASSES;
+            return self.pass <= CHOOSING_AGAIN;
         }
         let most = if self.level == self.start {
             FIRST_PASSES.0
@@ -341,7 +348,7 @@ impl Approach for Layers {
             self.smoothing = options.smoothing;
             self.scales = pyramid(&self.pair, self.scales[0].camera, options.smoothing);
         }
-        self.weights = Weights::of_layers(self.weights.sigma, options);
+        self.weights = Weights::of_layers(self.weights.sigma, self.settled(), options);
     }
 
     fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>) {

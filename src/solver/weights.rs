@@ -14,8 +14,9 @@ use crate::options::Options;
 const MU_OVER_VARIANCE: f64 = 20.0;
 /// λ/σ²: what a pixel of curve counts.
 const LAMBDA_OVER_VARIANCE: f64 = 1.5;
-/// μ/σ² of the coarse-to-fine approach, whose ε is the slope of a surface.
-const MU_OF_LAYERS: f64 = 1.0;
+/// μ/σ² of the coarse-to-fine approach, whose ε is the slope of a surface: while regions still hold pixels
+/// of others, which depth must not explain away, and once they have settled.
+const MU_OF_LAYERS: [f64; 2] = [1.0, 0.1];
 /// Least σ in grey levels: frames of 8 bits are not known better, derivatives included.
 const LEAST_SIGMA: f64 = 0.4;
 /// The same where frames are warped, and derivatives only tell directions.
@@ -46,12 +47,14 @@ impl Weights {
         first.tightened(sigma, options)
     }
 
-    /// Weights of the coarse-to-fine approach, whose residuals are those of depth alone throughout.
-    pub(super) fn of_layers(sigma: f64, options: &Options) -> Self {
+    /// Weights of the coarse-to-fine approach.
+    pub(super) fn of_layers(sigma: f64, settled: bool, options: &Options) -> Self {
         let sigma = sigma.max(LEAST_SIGMA_OF_LAYERS);
         let variance = sigma * sigma;
         Self {
-            mu: options.mu.unwrap_or(MU_OF_LAYERS * variance),
+            mu: options
+                .mu
+                .unwrap_or(MU_OF_LAYERS[usize::from(settled)] * variance),
             lambda: options.lambda.unwrap_or(variance),
             sigma,
             first_sigma: sigma,

@@ -22,7 +22,7 @@ const HIGHEST: f32 = 0.15;
 const SHALLOWEST: f32 = 0.35;
 const DEEPEST: f32 = 0.8;
 /// Shallow reliefs are deepened by no more than this: past it, one would look at noise.
-const MOST: f32 = 6.0;
+const MOST: f32 = 3.0;
 /// Share of a region's pixels that must have observable depth for it to have a relief.
 const LEAST_KNOWN: f32 = 0.02;
 
