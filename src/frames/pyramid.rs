@@ -1,4 +1,4 @@
-//! Halving a picture: smoothed with σ = 1 and read between the pixels.
+//! Halving a picture: smoothed with σ = 0.9, then the mean of each 2×2 pixels.
 //!
 //! Coarse pixel (x, y) covers fine pixels 2x, 2x+1 by 2y, 2y+1; its centre is at (2x + ½, 2y + ½).
 
