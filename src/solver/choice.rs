@@ -16,7 +16,8 @@
 use crate::depth::FieldPrior;
 use crate::motion::Kind;
 
-use super::region::{Evidence, Region};
+use super::evidence::Evidence;
+use super::region::Region;
 
 /// n0, in pixels.
 const CORRELATED: f64 = 6.0;

@@ -10,6 +10,7 @@
 mod approach;
 mod choice;
 mod composition;
+mod evidence;
 mod layers;
 mod region;
 mod report;
