@@ -29,6 +29,14 @@ pub enum Error {
         /// Its height.
         height: usize,
     },
+    /// A picture whose header claims more than this machine can address.
+    #[error(
+        "{name} claims to be larger than can be unpacked here; both sides must lie between {MIN_SIDE} and {MAX_SIDE} pixels: crop or resize it"
+    )]
+    TooLarge {
+        /// The picture, as the user knows it.
+        name: String,
+    },
     /// A flat array that does not fill the picture it is said to be.
     #[error("{what} of {width}×{height} pixels needs {expected} values, but {found} were given")]
     Length {

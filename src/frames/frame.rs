@@ -4,7 +4,7 @@
 //! 0–255 with 16-bit input keeping its fraction. It is not linearised: encoded values have noise of
 //! nearly equal size at all brightnesses, which is what least squares assumes.
 
-use image::{DynamicImage, ImageReader};
+use image::{DynamicImage, ImageError, ImageReader};
 use std::io::Cursor;
 
 use crate::error::Error;
@@ -29,8 +29,8 @@ impl Frame {
     /// alpha. Transparent parts are shown on mid grey. `name` is what error messages call it.
     ///
     /// # Errors
-    /// [`Error::Decode`] for anything else, [`Error::Size`] outside the limits; the size is read from
-    /// the header, before any pixel is unpacked.
+    /// [`Error::Decode`] for anything else, [`Error::Size`] outside the limits, [`Error::TooLarge`] far
+    /// outside; the size is read from the header, before any pixel is unpacked.
     pub fn decode(bytes: &[u8], name: &str) -> Result<Self, Error> {
         let unreadable = |reason: String| Error::Decode {
             name: name.to_owned(),
@@ -44,14 +44,18 @@ impl Frame {
         if bytes.is_empty() {
             return Err(unreadable("the file is empty".to_owned()));
         }
-        let (width, height) = open()?
-            .into_dimensions()
-            .map_err(|e| unreadable(e.to_string()))?;
+        let refused = |e: ImageError| match e {
+            ImageError::Limits(_) => Error::TooLarge {
+                name: name.to_owned(),
+            },
+            other => unreadable(other.to_string()),
+        };
+        let (width, height) = open()?.into_dimensions().map_err(refused)?;
         check_size(name, width as usize, height as usize)?;
         if jpeg_breaks_off(bytes) {
             return Err(unreadable("the file is cut short".to_owned()));
         }
-        let picture = open()?.decode().map_err(|e| unreadable(e.to_string()))?;
+        let picture = open()?.decode().map_err(refused)?;
         Ok(Self::from_dynamic(&picture))
     }
 
