@@ -91,11 +91,6 @@ impl<T: Copy> Grid<T> {
         &mut self.data
     }
 
-    /// The values in row order, without the grid.
-    pub fn into_vec(self) -> Vec<T> {
-        self.data
-    }
-
     /// Row `y`.
     pub fn row(&self, y: usize) -> &[T] {
         &self.data[y * self.width..(y + 1) * self.width]
