@@ -69,6 +69,7 @@ pub mod solver;
 pub mod start;
 pub mod view;
 pub mod warp;
+pub mod window;
 
 pub use camera::{Camera, RigidMotion};
 pub use curves::{Contour, Shape};
@@ -78,6 +79,7 @@ pub use grid::Grid;
 pub use interpretation::{Flow, Interpretation};
 pub use options::Options;
 pub use solver::{Solver, Status};
+pub use window::Window;
 
 #[cfg(target_arch = "wasm32")]
 pub mod wasm;

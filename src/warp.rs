@@ -14,6 +14,7 @@
 use crate::camera::{Camera, RigidMotion};
 use crate::frames::{FramePair, blur, gradient, halved, halved_camera};
 use crate::grid::Grid;
+use crate::window::Window;
 
 /// No scale of [`pyramid`] has a side shorter than this, unless the frames have.
 pub const SMALLEST: usize = 28;
@@ -39,9 +40,11 @@ pub struct Scale {
     pub second_gradient: (Grid<f32>, Grid<f32>),
 }
 
-/// A region's constraint at every pixel of the frame.
+/// A region's constraint at every pixel of a window of the frame.
 #[derive(Clone, Debug)]
 pub struct Linearisation {
+    /// The window; all grids have its size.
+    pub window: Window,
     /// Derivatives and residual; all 0 where the point leaves the frame.
     pub rows: Grid<Row>,
     /// ∇I, grey levels per pixel.
@@ -74,9 +77,19 @@ impl Scale {
         self.first.height()
     }
 
-    /// Linearises around `motion` at inverse depth `rho`.
-    pub fn linearise(&self, motion: &RigidMotion, rho: &Grid<f32>) -> Linearisation {
-        let (width, height) = (self.width(), self.height());
+    /// All of the frame.
+    pub fn whole(&self) -> Window {
+        Window::whole(self.width(), self.height())
+    }
+
+    /// Linearises around `motion` at inverse depth `rho`, given at every pixel of `window`.
+    pub fn linearise(
+        &self,
+        motion: &RigidMotion,
+        rho: &Grid<f32>,
+        window: Window,
+    ) -> Linearisation {
+        let (width, height) = (window.width, window.height);
         let mut rows = Grid::new(width, height, [0.0; 8]);
         let mut gradient = Grid::new(width, height, [0.0; 2]);
         let mut flow = Grid::new(width, height, [0.0; 2]);
@@ -85,10 +98,12 @@ impl Scale {
         let t = motion.translation.as_vec3();
         let f = self.camera.focal as f32;
         let (cx, cy) = (self.camera.cx as f32, self.camera.cy as f32);
-        let (right, bottom) = ((width - 1) as f32, (height - 1) as f32);
-        for py in 0..height {
-            for px in 0..width {
-                let at = (px, py);
+        let (right, bottom) = ((self.width() - 1) as f32, (self.height() - 1) as f32);
+        for y in 0..height {
+            for x in 0..width {
+                let at = (x, y);
+                let (px, py) = (window.left + x, window.top + y);
+                let here = (px, py);
                 let ray = glam::Vec3::new((px as f32 - cx) / f, (py as f32 - cy) / f, 1.0);
                 let rho = rho[at];
                 let moved = turn * ray + t * rho;
@@ -103,10 +118,10 @@ impl Scale {
                 }
                 inside[at] = true;
                 let ix =
-                    0.5 * (self.first_gradient.0[at] + self.second_gradient.0.bilinear(qx, qy));
+                    0.5 * (self.first_gradient.0[here] + self.second_gradient.0.bilinear(qx, qy));
                 let iy =
-                    0.5 * (self.first_gradient.1[at] + self.second_gradient.1.bilinear(qx, qy));
-                let residual = self.second.cubic(qx, qy) - self.first[at];
+                    0.5 * (self.first_gradient.1[here] + self.second_gradient.1.bilinear(qx, qy));
+                let residual = self.second.cubic(qx, qy) - self.first[here];
                 let e = x * ix + y * iy;
                 let s = glam::Vec3::new(f * ix, f * iy, -e);
                 let near = rho * over;
@@ -125,6 +140,7 @@ impl Scale {
             }
         }
         Linearisation {
+            window,
             rows,
             gradient,
             flow,

@@ -30,7 +30,12 @@ pub fn misfit(linearisation: &Linearisation, i: usize, sigma: f64, normalised: b
     r * r / variance
 }
 
-/// ξ of one region at every pixel, grey levels².
+/// ξ of a hypothesis that a pixel refutes altogether, grey levels².
+pub fn refuted(sigma: f64) -> f32 {
+    (sigma * sigma) as f32 * SATURATION * SATURATION
+}
+
+/// ξ of one region at every pixel of its window, grey levels².
 pub fn residual_in_units(linearisation: &Linearisation, sigma: f64, normalised: bool) -> Grid<f32> {
     let variance = (sigma * sigma) as f32;
     let (width, height) = (linearisation.rows.width(), linearisation.rows.height());

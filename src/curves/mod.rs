@@ -7,7 +7,7 @@ mod redistance;
 mod shape;
 mod threshold;
 
-pub use competition::{misfit, residual_in_units};
+pub use competition::{misfit, refuted, residual_in_units};
 pub use contour::{Contour, contours};
 pub use evolution::{evolve, labels, length};
 pub use redistance::redistance;

@@ -13,6 +13,7 @@
 
 use super::elliptic::Elliptic;
 use crate::grid::Grid;
+use crate::motion::solve_positive;
 use crate::options::Diffusion;
 
 /// Smoothness of a region's ρ.
@@ -24,6 +25,8 @@ pub struct FieldPrior {
     pub strength: f64,
     /// ε, per pixel.
     pub epsilon: f64,
+    /// Weight of (ρ − 1)² at each pixel of the region, grey levels².
+    pub relief: f64,
 }
 
 /// Weights of the edges to the right and below.
@@ -132,28 +135,61 @@ impl Edges {
 
 /// The plane α + βx + γy nearest to `rho` under `weight`, at every pixel.
 pub fn fitted_plane(rho: &Grid<f32>, weight: &Grid<f32>) -> Grid<f32> {
-    let (width, height) = (rho.width(), rho.height());
-    let (cx, cy) = (width as f64 / 2.0, height as f64 / 2.0);
-    let unit = width as f64;
-    let mut normal = [[0.0; 3]; 3];
-    let mut right = [0.0; 3];
-    for y in 0..height {
-        for x in 0..width {
-            let w = f64::from(weight[(x, y)]);
-            if w <= 0.0 {
-                continue;
-            }
-            let a = [1.0, (x as f64 - cx) / unit, (y as f64 - cy) / unit];
-            for i in 0..3 {
-                for j in 0..=i {
-                    normal[i][j] += w * a[i] * a[j];
+    let plane = Plane::fit(rho, weight);
+    Grid::from_fn(rho.width(), rho.height(), |x, y| {
+        plane.at(x as f64, y as f64) as f32
+    })
+}
+
+/// A plane over a grid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// Its height in the middle of the grid, and its rise over a grid's width to the right and down.
+    coefficients: [f64; 3],
+    middle: [f64; 2],
+    unit: f64,
+}
+
+impl Plane {
+    /// The plane nearest to `rho` under `weight`; level at 1 when that leaves it open.
+    pub fn fit(rho: &Grid<f32>, weight: &Grid<f32>) -> Self {
+        let (width, height) = (rho.width(), rho.height());
+        let mut plane = Self {
+            coefficients: [1.0, 0.0, 0.0],
+            middle: [width as f64 / 2.0, height as f64 / 2.0],
+            unit: width as f64,
+        };
+        let mut normal = [[0.0; 3]; 3];
+        let mut right = [0.0; 3];
+        for y in 0..height {
+            for x in 0..width {
+                let w = f64::from(weight[(x, y)]);
+                if w <= 0.0 {
+                    continue;
                 }
-                right[i] += w * a[i] * f64::from(rho[(x, y)]);
+                let a = plane.basis(x as f64, y as f64);
+                for i in 0..3 {
+                    for j in 0..=i {
+                        normal[i][j] += w * a[i] * a[j];
+                    }
+                    right[i] += w * a[i] * f64::from(rho[(x, y)]);
+                }
             }
         }
+        if let Some(found) = solve_positive(&normal, &right) {
+            plane.coefficients = found;
+        }
+        plane
     }
-    let plane = crate::motion::solve_positive(&normal, &right).unwrap_or([1.0, 0.0, 0.0]);
-    Grid::from_fn(width, height, |x, y| {
-        (plane[0] + plane[1] * (x as f64 - cx) / unit + plane[2] * (y as f64 - cy) / unit) as f32
-    })
+
+    /// Its height at column `x` and row `y`, which may lie beyond the grid.
+    pub fn at(&self, x: f64, y: f64) -> f64 {
+        let basis = self.basis(x, y);
+        (0..3).map(|i| self.coefficients[i] * basis[i]).sum()
+    }
+
+    fn basis(&self, x: f64, y: f64) -> [f64; 3] {
+        let [cx, cy] = self.middle;
+        [1.0, (x - cx) / self.unit, (y - cy) / self.unit]
+    }
 }

@@ -58,7 +58,8 @@ impl Blocks {
         side: usize,
         prior: f64,
     ) -> Self {
-        let (width, height) = (weight.width(), weight.height());
+        let window = linearisation.window;
+        let (width, height) = (window.width, window.height);
         let across = width.div_ceil(side);
         let mut all = vec![[[0.0; 7]; 7]; across * height.div_ceil(side)];
         let mut seen = vec![0.0f64; all.len()];
@@ -74,7 +75,8 @@ impl Blocks {
                 let it = f64::from(linearisation.rows[at][RESIDUAL]) - ix * u - iy * v;
                 // Halfway along the displacement, where a motion over the whole interval is linear
                 // to second order.
-                let (px, py) = (x as f64 + 0.5 * u, y as f64 + 0.5 * v);
+                let px = (window.left + x) as f64 + 0.5 * u;
+                let py = (window.top + y) as f64 + 0.5 * v;
                 let c = Coefficients::at(camera, px, py, ix, iy);
                 let a = [c.s.x, c.s.y, c.s.z, c.q.x, c.q.y, c.q.z, it];
                 let block = (y / side) * across + x / side;

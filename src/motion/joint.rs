@@ -62,63 +62,19 @@ pub struct Joint {
 const TOLERANCE: f64 = 1e-3;
 /// Most iterations of conjugate gradients.
 const MOST_ITERATIONS: usize = 12;
+/// Directions of (T, ω) that may be free: T's length is not observable.
+const MOST_FREE: usize = 5;
 
 impl JointStep<'_> {
     /// Takes the step from `motion`.
     pub fn solve(&self, motion: &RigidMotion) -> Joint {
-        let (width, height) = (self.rows.width(), self.rows.height());
-        let n = self.rows.len();
-        let (rows, weight) = (self.rows.data(), self.weight.data());
-        let mut right = vec![[0.0f32; 8]; n];
-        let mut sum_bb = [[0.0f64; 6]; 6];
-        let mut sum_br = [0.0f64; 6];
-        for i in 0..n {
-            let (row, w) = (&rows[i], weight[i]);
-            right[i][0] = self.pull.data()[i];
-            if w > 0.0 {
-                let wa = w * row[0];
-                right[i][0] -= wa * row[RESIDUAL];
-                for j in 0..6 {
-                    right[i][1 + j] = -wa * row[1 + j];
-                    let wb = f64::from(w * row[1 + j]);
-                    sum_br[j] += wb * f64::from(row[RESIDUAL]);
-                    for k in 0..=j {
-                        sum_bb[j][k] += wb * f64::from(row[1 + k]);
-                    }
-                }
-            }
-        }
-        let mut solution = vec![[0.0f32; 8]; n];
-        self.system
-            .solve(&right, &mut solution, TOLERANCE, MOST_ITERATIONS);
-        // Σ ω a b · (x, S), the eliminated depth's share.
-        for i in 0..n {
-            if weight[i] > 0.0 {
-                let (b, x) = (&right[i], &solution[i]);
-                for j in 0..6 {
-                    let wab = -f64::from(b[1 + j]);
-                    sum_br[j] += wab * f64::from(x[0]);
-                    for k in 0..=j {
-                        sum_bb[j][k] += wab * f64::from(x[1 + k]);
-                    }
-                }
-            }
-        }
-        for j in 0..6 {
-            for k in 0..j {
-                sum_bb[k][j] = sum_bb[j][k];
-            }
-        }
-        let w = motion.rotation.to_array();
-        for j in 0..3 {
-            sum_bb[3 + j][3 + j] += self.rotation_prior;
-            sum_br[3 + j] += self.rotation_prior * w[j];
-        }
-        let step = held(self.free_step(&sum_bb, &sum_br, motion), self.longest);
-        let mut depth_step = Grid::new(width, height, 0.0f32);
-        for (d, x) in depth_step.data_mut().iter_mut().zip(&solution) {
-            *d = x[0] + (0..6).map(|j| x[1 + j] * step[j] as f32).sum::<f32>();
-        }
+        let free = self.free_directions(motion);
+        // A lane for δρ as it is and one for each direction of (T, ω) that may change.
+        let (step, depth_step) = match free.len() {
+            0 => self.reduced::<1>(&free, motion),
+            1..=3 => self.reduced::<4>(&free, motion),
+            _ => self.reduced::<8>(&free, motion),
+        };
         let turn = DVec3::new(step[3], step[4], step[5]);
         let turn = DQuat::from_scaled_axis(turn);
         Joint {
@@ -130,8 +86,89 @@ impl JointStep<'_> {
         }
     }
 
-    /// −H⁻¹ g over the directions that the kind leaves free.
-    fn free_step(&self, h: &[[f64; 6]; 6], g: &[f64; 6], motion: &RigidMotion) -> [f64; 6] {
+    /// The step of (T, ω) and of ρ, with L lanes for at most L − 1 free directions.
+    fn reduced<const L: usize>(
+        &self,
+        free: &[[f64; 6]],
+        motion: &RigidMotion,
+    ) -> ([f64; 6], Grid<f32>) {
+        let n = self.rows.len();
+        let (rows, weight) = (self.rows.data(), self.weight.data());
+        let directions: Vec<[f32; 6]> = free.iter().map(|d| d.map(|x| x as f32)).collect();
+        let mut right = vec![[0.0f32; L]; n];
+        let mut h = [[0.0f64; MOST_FREE]; MOST_FREE];
+        let mut g = [0.0f64; MOST_FREE];
+        for i in 0..n {
+            let (row, w) = (&rows[i], weight[i]);
+            right[i][0] = self.pull.data()[i];
+            if w > 0.0 {
+                let wa = w * row[0];
+                right[i][0] -= wa * row[RESIDUAL];
+                let mut b = [0.0f32; MOST_FREE];
+                for (b, d) in b.iter_mut().zip(&directions) {
+                    *b = (0..6).map(|r| d[r] * row[1 + r]).sum();
+                }
+                for j in 0..free.len() {
+                    right[i][1 + j] = -wa * b[j];
+                    let wb = f64::from(w * b[j]);
+                    g[j] += wb * f64::from(row[RESIDUAL]);
+                    for k in 0..=j {
+                        h[j][k] += wb * f64::from(b[k]);
+                    }
+                }
+            }
+        }
+        let mut solution = vec![[0.0f32; L]; n];
+        if self.kind.translates() {
+            self.system
+                .solve(&right, &mut solution, TOLERANCE, MOST_ITERATIONS);
+        }
+        // Σ ω a b · (x, S), the eliminated depth's share.
+        for i in 0..n {
+            if weight[i] > 0.0 {
+                let (b, x) = (&right[i], &solution[i]);
+                for j in 0..free.len() {
+                    let wab = -f64::from(b[1 + j]);
+                    g[j] += wab * f64::from(x[0]);
+                    for k in 0..=j {
+                        h[j][k] += wab * f64::from(x[1 + k]);
+                    }
+                }
+            }
+        }
+        let w = motion.rotation.to_array();
+        for j in 0..MOST_FREE {
+            let Some(d) = free.get(j) else {
+                // What is not free becomes the equation x = 0.
+                h[j][j] = 1.0;
+                continue;
+            };
+            for k in 0..=j {
+                let along: f64 = (3..6).map(|r| d[r] * free[k][r]).sum();
+                h[j][k] += self.rotation_prior * along;
+            }
+            g[j] += self.rotation_prior * (0..3).map(|r| d[3 + r] * w[r]).sum::<f64>();
+            // A touch of damping for motions that the region hardly shows.
+            h[j][j] *= 1.0 + 1e-6;
+        }
+        let x = solve_positive(&h, &g.map(|g| -g)).unwrap_or_default();
+        let wanted = std::array::from_fn(|r| free.iter().zip(&x).map(|(d, x)| d[r] * x).sum());
+        let step = held(wanted, self.longest);
+        let share = step
+            .iter()
+            .zip(&wanted)
+            .find(|(_, w)| **w != 0.0)
+            .map_or(0.0, |(s, w)| s / w);
+        let mut depth_step = Grid::new(self.rows.width(), self.rows.height(), 0.0f32);
+        for (d, s) in depth_step.data_mut().iter_mut().zip(&solution) {
+            let by_motion: f32 = (0..free.len()).map(|j| s[1 + j] * x[j] as f32).sum();
+            *d = s[0] + share as f32 * by_motion;
+        }
+        (step, depth_step)
+    }
+
+    /// The directions of (T, ω) that the kind leaves free, T's perpendicular to T.
+    fn free_directions(&self, motion: &RigidMotion) -> Vec<[f64; 6]> {
         let mut free: Vec<[f64; 6]> = Vec::new();
         if self.kind.translates() {
             let along = motion.translation.normalize_or(DVec3::X);
@@ -147,25 +184,6 @@ impl JointStep<'_> {
                 free.push(unit);
             }
         }
-        // Directions that are not free become equations x = 0.
-        let mut a = [[0.0; 6]; 6];
-        let mut b = [0.0; 6];
-        for (i, row) in a.iter_mut().enumerate() {
-            row[i] = 1.0;
-        }
-        for (i, p) in free.iter().enumerate() {
-            for (j, q) in free.iter().enumerate() {
-                a[i][j] = (0..6)
-                    .map(|r| p[r] * (0..6).map(|c| h[r][c] * q[c]).sum::<f64>())
-                    .sum();
-            }
-            b[i] = -(0..6).map(|r| p[r] * g[r]).sum::<f64>();
-            // A touch of damping for motions that the region hardly shows.
-            a[i][i] *= 1.0 + 1e-6;
-        }
-        let Some(x) = solve_positive(&a, &b) else {
-            return [0.0; 6];
-        };
-        std::array::from_fn(|r| free.iter().zip(&x).map(|(p, x)| p[r] * x).sum())
+        free
     }
 }

@@ -1,17 +1,22 @@
 //! Which kind of motion a region has: the simplest of still, rotation, translation and full that explains
 //! its pixels nearly as well as the best.
 //!
-//! Each kind is fitted, and the least of
+//! Each kind is fitted, and judged by
 //!
 //! ```text
-//! C = ( Σ ρ(r²/v) + smoothness/σ² + 2 p ) / n0 + d ln(n/n0)
+//! C = ( Σ ρ(r²/v) + (smoothness + relief)/σ² + 2 p ) / n0 + d ln(n/n0)
 //! ```
 //!
-//! wins: ρ the robust χ², d the kind's parameters (still 0, rotation 3, translation 2, full 5; T's length
-//! is not observable), n the region's pixels, [`CORRELATED`] = n0 the pixels that one independent sample
-//! of noise spreads over, and p = Σ h/(h + Σc) the parameters' worth of freedom that depth takes (h its
-//! data weight, c its smoothing at a pixel), which kinds that translate pay for: with depth to adjust,
-//! noise alone can be explained. The second term is Schwarz's (1978), the 2p Akaike's.
+//! ρ the robust χ², d the kind's parameters (still 0, rotation 3, translation 2, full 5; T's length is not
+//! observable), n the region's pixels, [`CORRELATED`] = n0 the pixels that one independent sample of noise
+//! spreads over, and p = Σ h/(h + Σc) the parameters' worth of freedom that depth takes (h its data weight,
+//! c its smoothing at a pixel), which kinds that translate pay for: with depth to adjust, noise alone can
+//! be explained. The d ln n is Schwarz's (1978), the 2p Akaike's. A simpler kind is taken when its C is
+//! within `Σ (δ‖∇I‖)²/2v / n0` of the least: what image motion off by δ = [`INTERPOLATION`] everywhere costs,
+//! since interpolated frames do not tell motions apart that differ by less, however many pixels there are.
+//!
+//! A narrow view hardly tells a deep relief that turns little from a shallow one that turns much, nor from
+//! its mirror image. Full motion is therefore fitted from several depths of relief, of which the best counts.
 
 use crate::depth::FieldPrior;
 use crate::motion::Kind;
@@ -21,34 +26,83 @@ use super::region::Region;
 
 /// n0, in pixels.
 const CORRELATED: f64 = 6.0;
-/// Joint steps that each kind is fitted with.
-const STEPS: usize = 3;
+/// δ, in pixels.
+const INTERPOLATION: f64 = 0.05;
+/// Joint steps that each start is fitted with, and those with which the best of each kind goes on.
+const STEPS: [usize; 2] = [3, 5];
 
-/// The region refitted as the kind of motion that suits it, and nothing else changed.
+/// A fit and its C.
+struct Fit {
+    region: Region,
+    cost: f64,
+}
+
+/// The region refitted as the kind of motion that suits it, and nothing else changed. `reliefs` are
+/// what the depth of a full motion's relief is multiplied with to begin with, besides 1.
 pub(super) fn chosen(
     region: &Region,
     evidence: &Evidence,
     prior: &FieldPrior,
     block: usize,
+    reliefs: &[f64],
 ) -> Region {
-    let mut best: Option<(f64, Region)> = None;
-    for kind in [Kind::Still, Kind::Rotation, Kind::Translation, Kind::Full] {
-        let mut tried = region.clone();
-        tried.become_kind(kind, evidence, prior, block);
-        for _ in 0..STEPS {
-            tried.fit_jointly(evidence, prior);
-            tried.normalise(evidence.owned);
+    let fitted = |mut region: Region, steps: usize| {
+        for _ in 0..steps {
+            region.fit_jointly(evidence, prior);
+            region.normalise(&evidence.owned);
         }
-        let cost = criterion(&tried, evidence, prior);
-        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-            best = Some((cost, tried));
-        }
+        let cost = criterion(&region, evidence, prior);
+        Fit { region, cost }
+    };
+    let of_kind = |kind: Kind| {
+        let mut start = region.clone();
+        start.become_kind(kind, evidence, prior, block);
+        start
+    };
+    let full = of_kind(Kind::Full);
+    let mut fulls = vec![fitted(full.clone(), STEPS[0])];
+    for &depth in reliefs {
+        let mut start = full.clone();
+        start.scale_relief(depth, evidence, prior);
+        fulls.push(fitted(start, STEPS[0]));
     }
-    best.map_or_else(|| region.clone(), |(_, region)| region)
+    let full = fulls.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
+    let mut fits: Vec<Fit> = [Kind::Still, Kind::Rotation, Kind::Translation]
+        .into_iter()
+        .map(|kind| fitted(of_kind(kind), STEPS[0]))
+        .chain(full)
+        .map(|fit| fitted(fit.region, STEPS[1]))
+        .collect();
+    let least = fits.iter().map(|f| f.cost).fold(f64::INFINITY, f64::min);
+    let enough = least + untold(region, evidence);
+    // Rotation and translation are as simple as each other.
+    let rank = |fit: &Fit| match fit.region.kind {
+        Kind::Still => 0,
+        Kind::Rotation | Kind::Translation => 1,
+        Kind::Full => 2,
+    };
+    fits.retain(|fit| fit.cost <= enough);
+    let simplest = fits
+        .into_iter()
+        .min_by(|a, b| rank(a).cmp(&rank(b)).then(a.cost.total_cmp(&b.cost)));
+    simplest.map_or_else(|| region.clone(), |fit| fit.region)
+}
+
+/// What image motion off by δ costs.
+fn untold(region: &Region, evidence: &Evidence) -> f64 {
+    let line = evidence.linearise(region);
+    let gradients = line.gradient.data().iter().zip(evidence.owned.data());
+    let sum: f64 = gradients
+        .map(|(&[ix, iy], &own)| {
+            let steep = f64::from(ix * ix + iy * iy);
+            f64::from(own) * steep / (2.0 * evidence.variance(ix, iy))
+        })
+        .sum();
+    INTERPOLATION * INTERPOLATION * sum / CORRELATED
 }
 
 fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
-    let linearisation = evidence.scale.linearise(&region.motion, &region.rho);
+    let linearisation = evidence.linearise(region);
     let weight = evidence.weights(&linearisation);
     let variance = evidence.sigma * evidence.sigma;
     let (mut misfit, mut pixels, mut freedom) = (0.0, 0.0, 0.0);
@@ -73,7 +127,7 @@ fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
         Kind::Full => 5.0,
     };
     let smoothness = if region.kind.translates() {
-        edges.energy(&departure) / variance
+        (edges.energy(&departure) + region.relief_energy(prior, evidence)) / variance
     } else {
         0.0
     };

@@ -37,7 +37,7 @@ pub(super) fn composed(
     let mut target = vec![[0.0f32; 2]; width * height];
     let mut chi2 = vec![0.0f32; width * height];
     for (k, layer) in layers.iter().enumerate() {
-        let line = scale.linearise(&layer.motion, &layer.rho);
+        let line = scale.linearise(&layer.motion, &layer.rho, scale.whole());
         let shows = layer.kind.translates();
         let slope = line.rows.map(|row| if shows { row[0] } else { 0.0 });
         let certain = depth::confidence(&slope, sigma);

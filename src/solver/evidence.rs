@@ -3,32 +3,64 @@
 //! A residual r has the variance v = σ² + (δ‖∇I‖)², δ the error of position that a fit is granted, and
 //! counts with the weight σ²/v, less where r is large: ω = σ²/v · (1 + r²/(c² v))^(−½), Charbonnier's.
 
+use crate::frames::blur;
 use crate::grid::Grid;
 use crate::warp::{Linearisation, RESIDUAL, Scale};
+use crate::window::Window;
+
+use super::region::Region;
 
 /// Error of position granted when motion and depth are fitted, in pixels.
 const POSITION_ERROR: f32 = 0.06;
 /// Residuals of this many standard deviations count half as much as in least squares.
-const ROBUST: f32 = 2.0;
+const ROBUST: f32 = 3.0;
 /// Standard deviation of f·ω known beforehand, in pixels at the finest scale's width of 320.
 const ROTATION_SPREAD: f64 = 8.0;
+/// Smoothness of a change of brightness, in pixels, and the weight below which it is not known.
+const SHADE: f64 = 6.0;
+const UNSHADED: f32 = 0.05;
 /// Longest step of f T and of f ω, in pixels.
-const LONGEST_STEP: f64 = 2.0;
+const LONGEST_STEP: f64 = 8.0;
 
 /// What a region is fitted to.
 pub(super) struct Evidence<'a> {
     pub scale: &'a Scale,
+    /// Where the region's field is computed; grids have its size.
+    pub window: Window,
     /// 1 where the region owns the pixel and it is seen in both frames, else 0.
-    pub owned: &'a Grid<f32>,
+    pub owned: Grid<f32>,
     /// Standard deviation of the residual, grey levels.
     pub sigma: f64,
+    /// The same of the region's own residual as it is, not less: large as long as its motion is wrong.
+    pub spread: f64,
     pub robust: bool,
 }
 
 impl Evidence<'_> {
+    /// The constraint around what `region` is at present.
+    pub fn linearise(&self, region: &Region) -> Linearisation {
+        region.linearise(self.scale, self.window)
+    }
+
+    /// How much brighter the region's pixels become, from their residuals: smooth over [`SHADE`] pixels.
+    pub fn shade(&self, region: &Region) -> Grid<f32> {
+        let line = self.linearise(region);
+        let weight = self.weights(&line);
+        let mut sum = weight.clone();
+        for (i, s) in sum.data_mut().iter_mut().enumerate() {
+            *s *= line.rows.data()[i][RESIDUAL] + region.shade.data()[i];
+        }
+        let (mut shade, weight) = (blur(&sum, SHADE), blur(&weight, SHADE));
+        for (s, w) in shade.data_mut().iter_mut().zip(weight.data()) {
+            *s /= w + UNSHADED;
+        }
+        shade
+    }
+
     /// ω_i, in units in which the residual's variance is σ².
     pub fn weights(&self, linearisation: &Linearisation) -> Grid<f32> {
         let variance = (self.sigma * self.sigma) as f32;
+        let spread = (self.spread * self.spread) as f32;
         let mut weight = self.owned.clone();
         for (i, w) in weight.data_mut().iter_mut().enumerate() {
             if !linearisation.inside.data()[i] {
@@ -36,26 +68,30 @@ impl Evidence<'_> {
             } else if *w > 0.0 {
                 let [ix, iy] = linearisation.gradient.data()[i];
                 let position = POSITION_ERROR * POSITION_ERROR * (ix * ix + iy * iy);
-                let own = variance + position;
+                let own = spread + position;
                 *w *= variance / own;
                 if self.robust {
                     let r = linearisation.rows.data()[i][RESIDUAL];
-                    *w /= (1.0 + r * r / (ROBUST * ROBUST * own)).sqrt();
+                    *w /= (1.0 + r * r / (ROBUST * ROBUST * own)).powi(2);
                 }
             }
         }
         weight
     }
 
+    /// Variance of the residual of a region that is fitted well, where ∇I = (`ix`, `iy`).
+    pub fn variance(&self, ix: f32, iy: f32) -> f64 {
+        let position = POSITION_ERROR * POSITION_ERROR * (ix * ix + iy * iy);
+        self.sigma * self.sigma + f64::from(position)
+    }
+
     /// Robust χ² of pixel `i`.
     pub fn misfit(&self, linearisation: &Linearisation, i: usize) -> f64 {
         let [ix, iy] = linearisation.gradient.data()[i];
-        let r = linearisation.rows.data()[i][RESIDUAL];
-        let variance = (self.sigma * self.sigma) as f32;
-        let position = POSITION_ERROR * POSITION_ERROR * (ix * ix + iy * iy);
-        let q = f64::from(r * r / (variance + position));
+        let r = f64::from(linearisation.rows.data()[i][RESIDUAL]);
+        let q = r * r / self.variance(ix, iy);
         let scale = f64::from(ROBUST * ROBUST);
-        2.0 * scale * ((1.0 + q / scale).sqrt() - 1.0)
+        scale * q / (scale + q)
     }
 
     /// Longest step of T and of ω.

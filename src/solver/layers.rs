@@ -9,11 +9,11 @@
 
 use std::rc::Rc;
 
-use super::approach::Approach;
+use super::approach::{Approach, pixels};
 use super::choice;
 use super::composition::{Layer, composed};
 use super::evidence::Evidence;
-use super::region::Region;
+use super::region::{Region, certainty};
 use super::weights::{Weights, spread};
 use crate::camera::{Camera, RigidMotion};
 use crate::curves;
@@ -26,6 +26,7 @@ use crate::motion::Kind;
 use crate::options::{MotionMethod, Options};
 use crate::start::{self, Patch};
 use crate::warp::{Linearisation, RESIDUAL, Scale, pyramid};
+use crate::window::Window;
 
 /// Regions start on the coarsest scale whose shorter side is at least this.
 const STARTING: usize = 50;
@@ -39,12 +40,18 @@ const THRESHOLD_PASSES: usize = 4;
 const CHOOSING: usize = 2;
 /// The pass on the finest scale in which they are chosen again, depth being known in detail by then.
 const CHOOSING_AGAIN: usize = THRESHOLD_PASSES + 3;
+/// Depths of relief that a full motion is tried with.
+const RELIEFS: [f64; 4] = [-1.0, 0.4, 2.5, -2.5];
+/// Relief expected, as a share of a region's extent over the focal length, and what it counts, in variances.
+const RELIEF: (f64, f64) = (1.5, 10.0);
 /// Joint steps in a pass.
 const JOINT_STEPS: usize = 2;
+/// Pixels around a region in which its field is computed, and beyond which its curve does not leap.
+const MARGIN: usize = 20;
 /// Side of the blocks in which depth is eliminated, in pixels.
 const BLOCK: usize = 8;
 /// A region of fewer pixels than this keeps the motion that it has.
-const FEWEST: f32 = 8.0;
+const FEWEST: usize = 8;
 /// A curve pays this, in variances, for pixels that are nearer to another by this share of the frame's
 /// width: of two that move alike, the nearer takes them.
 const FAR: (f64, f32) = (2.0, 0.05);
@@ -62,6 +69,8 @@ pub(super) struct Layers {
     labels: Grid<u8>,
     regions: Vec<Region>,
     weights: Weights,
+    /// σ of each region's own residual, grey levels.
+    spreads: Vec<f64>,
 }
 
 impl Layers {
@@ -88,6 +97,7 @@ impl Layers {
             phi: Vec::new(),
             labels: Grid::new(width, height, 0),
             regions: vec![Region::new(width, height); regions],
+            spreads: vec![0.0; regions],
             weights: Weights::of_layers(f64::INFINITY, false, options),
             scales,
         };
@@ -160,63 +170,120 @@ impl Layers {
             diffusion: options.diffusion,
             strength: self.weights.mu,
             epsilon: options.epsilon * f64::from(1u32 << self.level),
+            relief: 0.0,
         }
     }
 
-    fn owned(&self, k: usize) -> Grid<f32> {
-        self.labels.map(|l| f32::from(usize::from(l) == k))
+    /// Where region k is computed: everywhere while curves may still leap anywhere.
+    fn window(&self, k: usize) -> Window {
+        let whole = self.here().whole();
+        if self.level == self.start || k == 0 {
+            return whole;
+        }
+        let owned = |i: usize| usize::from(self.labels.data()[i]) == k;
+        Window::around(whole.width, whole.height, MARGIN, owned).unwrap_or(whole)
     }
 
-    fn evidence<'a>(&'a self, owned: &'a Grid<f32>, options: &Options) -> Evidence<'a> {
+    /// What region k is to be fitted to, in its window.
+    fn evidence(&self, k: usize, window: Window, options: &Options) -> Evidence<'_> {
+        let owned = window.crop(&self.labels);
         Evidence {
             scale: self.here(),
-            owned,
+            window,
+            owned: owned.map(|l| f32::from(usize::from(l) == k)),
             sigma: self.weights.sigma,
+            spread: self.spreads[k].max(self.weights.sigma),
             robust: options.robust,
         }
     }
 
     /// Calls `improve` with every region that still owns pixels, and what it is to be fitted to.
-    fn each_region(&mut self, options: &Options, improve: impl Fn(&mut Region, &Evidence)) {
+    fn each_region(
+        &mut self,
+        options: &Options,
+        improve: impl Fn(&mut Region, &Evidence, &FieldPrior),
+    ) {
+        let pixels = pixels(&self.labels, self.regions.len());
         for k in 0..self.regions.len() {
-            let owned = self.owned(k);
-            if owned.data().iter().sum::<f32>() < FEWEST {
+            if pixels[k] < FEWEST {
                 continue;
             }
-            let mut region = self.regions[k].clone();
-            improve(&mut region, &self.evidence(&owned, options));
-            self.regions[k] = region;
+            let window = self.window(k);
+            let evidence = self.evidence(k, window, options);
+            let mut part = self.regions[k].cropped(&window);
+            let mut prior = self.prior(options);
+            prior.relief = self.relief(&evidence);
+            improve(&mut part, &evidence, &prior);
+            let line = evidence.linearise(&part);
+            let certain = certainty(&line, &evidence.weights(&line));
+            self.regions[k].take(&part, &window, &certain);
         }
     }
 
+    fn relief(&self, evidence: &Evidence) -> f64 {
+        let (mut n, mut sum, mut square) = (0.0f64, [0.0f64; 2], 0.0f64);
+        for (i, &w) in evidence.owned.data().iter().enumerate() {
+            if w > 0.0 {
+                let (x, y) = evidence.window.place(i);
+                let (x, y) = (x as f64, y as f64);
+                n += 1.0;
+                sum = [sum[0] + x, sum[1] + y];
+                square += x * x + y * y;
+            }
+        }
+        let extent2 = square / n - (sum[0] / n).powi(2) - (sum[1] / n).powi(2);
+        let f = self.here().camera.focal;
+        let spread2 = RELIEF.0 * RELIEF.0 * extent2 / (f * f);
+        RELIEF.1 * self.weights.sigma * self.weights.sigma / (n * spread2.max(1e-6))
+    }
+
     fn linearisations(&self) -> Vec<Linearisation> {
-        let each = self.regions.iter();
-        each.map(|r| self.here().linearise(&r.motion, &r.rho))
-            .collect()
+        let each = self.regions.iter().enumerate();
+        each.map(|(k, region)| {
+            let window = self.window(k);
+            region.cropped(&window).linearise(self.here(), window)
+        })
+        .collect()
     }
 
     /// σ as the owners see it; while curves mean little, as the best of all regions does.
     fn measure_noise(&mut self, lines: &[Linearisation], options: &Options) {
         let flat = self.deep_passes().is_none();
-        let mut residuals = Vec::with_capacity(self.labels.len());
-        for (i, &k) in self.labels.data().iter().enumerate() {
-            let own = std::slice::from_ref(&lines[usize::from(k)]);
-            let seen = own[0].inside.data()[i];
-            if seen {
-                let judges = if flat { lines } else { own };
-                let least = judges.iter().map(|l| l.rows.data()[i][RESIDUAL].abs());
-                residuals.push(least.fold(f32::INFINITY, f32::min));
+        let mut least = Grid::new(self.labels.width(), self.labels.height(), f32::INFINITY);
+        for (k, line) in lines.iter().enumerate() {
+            let mut own = Vec::new();
+            for i in 0..line.rows.len() {
+                let at = line.window.place(i);
+                let owns = usize::from(self.labels[at]) == k;
+                if line.inside.data()[i] {
+                    let r = line.rows.data()[i][RESIDUAL].abs();
+                    if owns {
+                        own.push(r);
+                    }
+                    if flat || owns {
+                        least[at] = least[at].min(r);
+                    }
+                }
             }
+            self.spreads[k] = spread(own);
         }
-        self.weights = Weights::of_layers(spread(residuals), self.settled(), options);
+        let seen = least.data().iter().filter(|r| r.is_finite());
+        let sigma = spread(seen.copied().collect());
+        self.weights = Weights::of_layers(sigma, self.settled(), options);
     }
 
     /// ξ of every region.
     fn competition(&self, lines: &[Linearisation], options: &Options) -> Vec<Grid<f32>> {
         let sigma = self.weights.sigma;
+        let (width, height) = (self.labels.width(), self.labels.height());
         let mut xi: Vec<Grid<f32>> = lines
             .iter()
-            .map(|line| curves::residual_in_units(line, sigma, options.normalised))
+            .map(|line| {
+                let mut all = Grid::new(width, height, curves::refuted(sigma));
+                let own = curves::residual_in_units(line, sigma, options.normalised);
+                line.window.paste(&own, &mut all);
+                all
+            })
             .collect();
         let reach = FAR.1 * self.here().width() as f32;
         let price = (FAR.0 * sigma * sigma) as f32;
@@ -240,6 +307,7 @@ impl Layers {
         }
         for region in &mut self.regions {
             region.rho = doubled(&region.rho, width, height);
+            region.shade = doubled(&region.shade, width, height);
         }
         self.labels = curves::labels(&self.phi, width, height);
     }
@@ -263,7 +331,7 @@ impl Approach for Layers {
         }
         let Some(pass) = self.deep_passes() else {
             if self.pass > 0 {
-                self.each_region(options, |region, evidence| {
+                self.each_region(options, |region, evidence, _| {
                     for _ in 0..JOINT_STEPS {
                         region.fit_flat(evidence);
                     }
@@ -271,7 +339,6 @@ impl Approach for Layers {
             }
             return;
         };
-        let prior = self.prior(options);
         let last = if self.level == 0 {
             THRESHOLD_PASSES
         } else {
@@ -280,31 +347,35 @@ impl Approach for Layers {
         let choose = options.choose_kind
             && (self.level < self.start || self.level == 0)
             && (pass + CHOOSING == last || self.level == 0 && pass == CHOOSING_AGAIN);
-        self.each_region(options, |region, evidence| {
+        let searching = options.search && self.level == self.start;
+        let reliefs: &[f64] = if self.level > 0 { &RELIEFS } else { &[] };
+        self.each_region(options, |region, evidence, prior| {
             if options.motion == MotionMethod::LeastSquares {
                 region.fit_flat(evidence);
-                region.normalise(evidence.owned);
+                region.normalise(&evidence.owned);
                 return;
             }
-            if pass <= 1 && options.search {
-                region.search(evidence, &prior, BLOCK);
+            if pass <= 1 && searching {
+                region.search(evidence, prior, BLOCK);
             }
             for _ in 0..JOINT_STEPS {
-                region.fit_jointly(evidence, &prior);
-                region.normalise(evidence.owned);
+                region.fit_jointly(evidence, prior);
+                region.normalise(&evidence.owned);
             }
             if choose {
-                *region = choice::chosen(region, evidence, &prior, BLOCK);
+                *region = choice::chosen(region, evidence, prior, BLOCK, reliefs);
             }
         });
     }
 
     fn find_depth(&mut self, options: &Options) {
         if self.deep_passes().is_some() {
-            let prior = self.prior(options);
-            self.each_region(options, |region, evidence| {
-                region.fit_depth(evidence, &prior);
-                region.normalise(evidence.owned);
+            self.each_region(options, |region, evidence, prior| {
+                region.fit_depth(evidence, prior);
+                region.normalise(&evidence.owned);
+                if std::env::var("NOSHADE").is_err() {
+                    region.shade = evidence.shade(region);
+                }
             });
         }
     }
@@ -315,6 +386,28 @@ impl Approach for Layers {
         if self.phi.is_empty() {
             return;
         }
+        // ORACLE-BEGIN
+        if let Some(o) = crate::solver::ORACLE.with(|o| o.borrow().clone()) {
+            let side = 1usize << self.level;
+            for k in 1..=self.phi.len() {
+                let mut phi = Grid::from_fn(self.labels.width(), self.labels.height(), |x, y| {
+                    let (x, y) = (
+                        (x * side + side / 2).min(o.width() - 1),
+                        (y * side + side / 2).min(o.height() - 1),
+                    );
+                    if usize::from(o[(x, y)]) == k {
+                        1.0
+                    } else {
+                        -1.0
+                    }
+                });
+                curves::redistance(&mut phi);
+                self.phi[k - 1] = phi;
+            }
+            self.labels = curves::labels(&self.phi, self.labels.width(), self.labels.height());
+            return;
+        }
+        // ORACLE-END
         let xi = self.competition(&lines, options);
         if self.settled() {
             curves::evolve(&mut self.phi, &xi, self.weights.lambda, options.curve_steps);
@@ -360,6 +453,7 @@ impl Approach for Layers {
         self.pass = 0;
         self.regions
             .resize(level_sets.len() + 1, Region::new(width, height));
+        self.spreads.resize(level_sets.len() + 1, 0.0);
         self.place_curves(level_sets);
         self.propose_motions(known);
     }
@@ -381,11 +475,12 @@ impl Approach for Layers {
             if !(deep && region.kind.translates()) {
                 return 0.0;
             }
-            let weight = self.evidence(&self.owned(k), options).weights(&lines[k]);
+            let window = lines[k].window;
+            let weight = self.evidence(k, window, options).weights(&lines[k]);
             if weight.data().iter().all(|w| *w <= 0.0) {
                 return 0.0;
             }
-            let departure = region.departure(&lines[k], &weight);
+            let departure = region.cropped(&window).departure(&lines[k], &weight);
             prior.edges(&departure).energy(&departure)
         };
         let length: f64 = self.phi.iter().map(curves::length).sum();

@@ -5,10 +5,12 @@ use glam::{DQuat, DVec3};
 
 use super::evidence::Evidence;
 use crate::camera::RigidMotion;
-use crate::depth::{FieldPrior, fitted_plane};
+use crate::constraint::Coefficients;
+use crate::depth::{FieldPrior, Plane, fitted_plane};
 use crate::grid::Grid;
 use crate::motion::{Blocks, Candidate, JointStep, Kind, held, solve_positive};
-use crate::warp::{Linearisation, RESIDUAL};
+use crate::warp::{Linearisation, RESIDUAL, Scale};
+use crate::window::Window;
 
 /// Inverse depth is kept between these; the region's mean is 1.
 pub(super) const RHO_RANGE: [f32; 2] = [0.02, 20.0];
@@ -21,6 +23,8 @@ pub(super) struct Region {
     pub motion: RigidMotion,
     pub kind: Kind,
     pub rho: Grid<f32>,
+    /// How much brighter its pixels become: bodies turn under their lamps. Grey levels.
+    pub shade: Grid<f32>,
 }
 
 impl Region {
@@ -29,12 +33,47 @@ impl Region {
             motion: RigidMotion::default(),
             kind: Kind::Full,
             rho: Grid::new(width, height, 1.0),
+            shade: Grid::new(width, height, 0.0),
         }
+    }
+
+    /// The same with depth in `window` alone.
+    pub fn cropped(&self, window: &Window) -> Self {
+        Self {
+            rho: window.crop(&self.rho),
+            shade: window.crop(&self.shade),
+            ..*self
+        }
+    }
+
+    /// The constraint around what it is at present, for depth in `window` alone.
+    pub fn linearise(&self, scale: &Scale, window: Window) -> Linearisation {
+        let mut line = scale.linearise(&self.motion, &self.rho, window);
+        for (row, shade) in line.rows.data_mut().iter_mut().zip(self.shade.data()) {
+            row[RESIDUAL] -= shade;
+        }
+        line
+    }
+
+    /// Takes over what has been found in `window`; beyond it depth goes on as the plane does that fits it
+    /// best where it is `certain`.
+    pub fn take(&mut self, part: &Self, window: &Window, certain: &Grid<f32>) {
+        let plane = Plane::fit(&part.rho, certain);
+        let (left, top) = (window.left as f64, window.top as f64);
+        self.rho = Grid::from_fn(self.rho.width(), self.rho.height(), |x, y| {
+            let rho = plane.at(x as f64 - left, y as f64 - top) as f32;
+            rho.clamp(RHO_RANGE[0], RHO_RANGE[1])
+        });
+        window.paste(&part.rho, &mut self.rho);
+        self.shade.data_mut().fill(0.0);
+        window.paste(&part.shade, &mut self.shade);
+        self.motion = part.motion;
+        self.kind = part.kind;
     }
 
     /// A Gauss–Newton step of (T, ω) with depth held as it is: robust while nothing is known of depth.
     pub fn fit_flat(&mut self, evidence: &Evidence) {
-        let linearisation = evidence.scale.linearise(&self.motion, &self.rho);
+        let linearisation = evidence.linearise(self);
         let weight = evidence.weights(&linearisation);
         let mut normal = [[0.0; 6]; 6];
         let mut right = [0.0; 6];
@@ -71,7 +110,7 @@ impl Region {
         if !self.kind.translates() {
             return;
         }
-        let flow = evidence.scale.linearise(&self.motion, &self.rho);
+        let flow = evidence.linearise(self);
         let blocks = self.blocks(&flow, evidence, block);
         let rotates = self.kind.rotates();
         let present = blocks.judge(self.motion.translation, rotates);
@@ -93,7 +132,7 @@ impl Region {
         if kind == self.kind && kind == Kind::Full {
             return;
         }
-        let flow = evidence.scale.linearise(&self.motion, &self.rho);
+        let flow = evidence.linearise(self);
         self.kind = kind;
         if !kind.rotates() {
             self.motion.rotation = DVec3::ZERO;
@@ -130,7 +169,7 @@ impl Region {
             rotation: found.motion.rotation,
         };
         self.depth_for_flow(flow, evidence, prior);
-        self.normalise(evidence.owned);
+        self.normalise(&evidence.owned);
     }
 
     /// Depth anew, for the motion as it is, from the constraint around the *flow* that is known:
@@ -139,50 +178,52 @@ impl Region {
         let scale = evidence.scale;
         let weight = evidence.weights(flow);
         let n = weight.len();
-        let width = scale.width();
+        let (width, height) = (weight.width(), weight.height());
         let mut data = vec![0.0f32; n];
         let mut right = vec![[0.0f32; 1]; n];
         for i in 0..n {
             let w = weight.data()[i];
+            data[i] = prior.relief as f32 * evidence.owned.data()[i];
+            right[i] = [data[i]];
             if w <= 0.0 {
                 continue;
             }
             let [ix, iy] = flow.gradient.data()[i].map(f64::from);
             let [u, v] = flow.flow.data()[i].map(f64::from);
             let it = f64::from(flow.rows.data()[i][RESIDUAL]) - ix * u - iy * v;
-            let (px, py) = ((i % width) as f64 + 0.5 * u, (i / width) as f64 + 0.5 * v);
-            let c = crate::constraint::Coefficients::at(&scale.camera, px, py, ix, iy);
+            let (x, y) = flow.window.place(i);
+            let (px, py) = (x as f64 + 0.5 * u, y as f64 + 0.5 * v);
+            let c = Coefficients::at(&scale.camera, px, py, ix, iy);
             let slope = c.s.dot(self.motion.translation) as f32;
             let offset = (it + c.q.dot(self.motion.rotation)) as f32;
-            data[i] = w * slope * slope;
-            right[i] = [-w * slope * offset];
+            data[i] += w * slope * slope;
+            right[i][0] -= w * slope * offset;
         }
-        let flat = Grid::new(width, scale.height(), 0.0f32);
+        let flat = Grid::new(width, height, 0.0f32);
         let edges = prior.edges(&flat);
         let mut rho = vec![[1.0f32; 1]; n];
         edges
-            .system(width, scale.height(), data)
+            .system(width, height, data)
             .solve(&right, &mut rho, 1e-4, 60);
         for (out, [rho]) in self.rho.data_mut().iter_mut().zip(rho) {
-            *out = rho;
+            *out = rho.clamp(RHO_RANGE[0], RHO_RANGE[1]);
         }
     }
 
     /// Motion and depth together: one joint step.
     pub fn fit_jointly(&mut self, evidence: &Evidence, prior: &FieldPrior) {
-        let linearisation = evidence.scale.linearise(&self.motion, &self.rho);
+        let linearisation = evidence.linearise(self);
         let weight = evidence.weights(&linearisation);
         let departure = self.departure(&linearisation, &weight);
         let edges = prior.edges(&departure);
+        let mut data = certainty(&linearisation, &weight);
+        let mut pull = edges.pull(&departure);
+        self.flatten(prior, evidence, &mut data, &mut pull);
         let step = JointStep {
             rows: &linearisation.rows,
             weight: &weight,
-            system: &edges.system(
-                weight.width(),
-                weight.height(),
-                data_term(&linearisation, &weight),
-            ),
-            pull: &edges.pull(&departure),
+            system: &edges.system(weight.width(), weight.height(), data.into_vec()),
+            pull: &pull,
             rotation_prior: evidence.rotation_prior(),
             kind: self.kind,
             longest: evidence.longest(),
@@ -199,16 +240,14 @@ impl Region {
         if !self.kind.translates() {
             return;
         }
-        let linearisation = evidence.scale.linearise(&self.motion, &self.rho);
+        let linearisation = evidence.linearise(self);
         let weight = evidence.weights(&linearisation);
         let departure = self.departure(&linearisation, &weight);
         let edges = prior.edges(&departure);
-        let pull = edges.pull(&departure);
-        let system = edges.system(
-            weight.width(),
-            weight.height(),
-            data_term(&linearisation, &weight),
-        );
+        let mut data = certainty(&linearisation, &weight);
+        let mut pull = edges.pull(&departure);
+        self.flatten(prior, evidence, &mut data, &mut pull);
+        let system = edges.system(weight.width(), weight.height(), data.into_vec());
         let right: Vec<[f32; 1]> = linearisation
             .rows
             .data()
@@ -220,6 +259,44 @@ impl Region {
         let mut step = vec![[0.0f32; 1]; right.len()];
         system.solve(&right, &mut step, 1e-3, 20);
         self.add_depth(step.into_iter().map(|[d]| d));
+    }
+
+    /// Adds the pull of ρ towards 1 to a system's diagonal and right-hand side.
+    fn flatten(
+        &self,
+        prior: &FieldPrior,
+        evidence: &Evidence,
+        data: &mut Grid<f32>,
+        pull: &mut Grid<f32>,
+    ) {
+        let owned = evidence.owned.data().iter().zip(self.rho.data());
+        let sides = data.data_mut().iter_mut().zip(pull.data_mut());
+        for ((d, p), (&own, &rho)) in sides.zip(owned) {
+            let weight = prior.relief as f32 * own;
+            *d += weight;
+            *p += weight * (1.0 - rho);
+        }
+    }
+
+    /// What the relief of the owned pixels costs.
+    pub fn relief_energy(&self, prior: &FieldPrior, evidence: &Evidence) -> f64 {
+        let owned = evidence.owned.data().iter().zip(self.rho.data());
+        prior.relief
+            * owned
+                .map(|(&w, &rho)| f64::from(w * (rho - 1.0).powi(2)))
+                .sum::<f64>()
+    }
+
+    /// The motion with relief `depth` times as deep that shows nearly the same: what a narrow view
+    /// confuses (the bas-relief ambiguity; at −1 near and far change places, Necker's cube).
+    pub fn scale_relief(&mut self, depth: f64, evidence: &Evidence, prior: &FieldPrior) {
+        let flow = evidence.linearise(self);
+        let t = self.motion.translation;
+        let rest = (1.0 - 1.0 / depth) * t;
+        self.motion.translation = DVec3::new(t.x / depth, t.y / depth, t.z);
+        self.motion.rotation += DVec3::new(-rest.y, rest.x, 0.0);
+        self.depth_for_flow(&flow, evidence, prior);
+        self.normalise(&evidence.owned);
     }
 
     /// Mean ρ over the owned pixels back to 1, T with it; turned round if most of it is behind the camera.
@@ -241,11 +318,7 @@ impl Region {
 
     /// ρ less the plane that fits it best where depth shows.
     pub fn departure(&self, linearisation: &Linearisation, weight: &Grid<f32>) -> Grid<f32> {
-        let mut certain = weight.clone();
-        for (c, row) in certain.data_mut().iter_mut().zip(linearisation.rows.data()) {
-            *c *= row[0] * row[0];
-        }
-        let mut departure = fitted_plane(&self.rho, &certain);
+        let mut departure = fitted_plane(&self.rho, &certainty(linearisation, weight));
         for (d, &rho) in departure.data_mut().iter_mut().zip(self.rho.data()) {
             *d = rho - *d;
         }
@@ -261,10 +334,11 @@ impl Region {
     }
 }
 
-/// ω a².
-fn data_term(linearisation: &Linearisation, weight: &Grid<f32>) -> Vec<f32> {
-    let rows = linearisation.rows.data().iter();
-    rows.zip(weight.data())
-        .map(|(row, w)| w * row[0] * row[0])
-        .collect()
+/// ω a²: how far the pixels tell depth.
+pub(super) fn certainty(linearisation: &Linearisation, weight: &Grid<f32>) -> Grid<f32> {
+    let mut certain = weight.clone();
+    for (c, row) in certain.data_mut().iter_mut().zip(linearisation.rows.data()) {
+        *c *= row[0] * row[0];
+    }
+    certain
 }
