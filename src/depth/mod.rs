@@ -9,5 +9,5 @@ mod smoothness;
 pub use confidence::confidence;
 pub use descent::{DepthDescent, NEAREST_FARTHEST};
 pub use elliptic::Elliptic;
-pub use region_field::{Edges, FieldPrior, Plane, fitted_plane};
+pub use region_field::{Bends, Edges, FieldPrior, Plane};
 pub use smoothness::Smoothness;

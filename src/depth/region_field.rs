@@ -12,9 +12,13 @@
 //! surface and not of pixels, and the weight is in units of the noise's variance.
 
 use super::elliptic::Elliptic;
+use crate::frames::blur;
 use crate::grid::Grid;
 use crate::motion::solve_positive;
 use crate::options::Diffusion;
+
+/// Share of pixels around from which their mean slope counts more than the plane's.
+const UNKNOWN: f32 = 0.05;
 
 /// Smoothness of a region's ρ.
 #[derive(Clone, Copy, Debug)]
@@ -35,10 +39,74 @@ pub struct Edges {
     below: Vec<f32>,
 }
 
+/// How the steps of a field to the right and down differ from those expected of it: what is smoothed.
+#[derive(Clone, Debug)]
+pub struct Bends {
+    /// To the right; 0 in the last column.
+    right: Grid<f32>,
+    /// Down; 0 in the last row.
+    down: Grid<f32>,
+}
+
+impl Bends {
+    /// All steps of `field`, none being expected.
+    pub fn of(field: &Grid<f32>) -> Self {
+        let (width, height) = (field.width(), field.height());
+        let step = |x: usize, y: usize, nx: usize, ny: usize| {
+            if nx < width && ny < height {
+                field[(nx, ny)] - field[(x, y)]
+            } else {
+                0.0
+            }
+        };
+        Self {
+            right: Grid::from_fn(width, height, |x, y| step(x, y, x + 1, y)),
+            down: Grid::from_fn(width, height, |x, y| step(x, y, x, y + 1)),
+        }
+    }
+
+    /// What is left of the steps of `rho` after their own mean over some pixels around, among those that
+    /// are `owned`; where there are none, after the steps of `plane`. `reach` is the mean's standard
+    /// deviation in pixels.
+    pub fn about_slope(rho: &Grid<f32>, owned: &Grid<f32>, plane: &Plane, reach: f64) -> Self {
+        let steps = Self::of(rho);
+        let (width, height) = (rho.width(), rho.height());
+        let expected = plane.slope();
+        let bent = |steps: &Grid<f32>, ahead: (usize, usize), expected: f64| {
+            let expected = expected as f32;
+            let within = |x: usize, y: usize| x + ahead.0 < width && y + ahead.1 < height;
+            let weight = Grid::from_fn(width, height, |x, y| {
+                if within(x, y) {
+                    owned[(x, y)] * owned[(x + ahead.0, y + ahead.1)]
+                } else {
+                    0.0
+                }
+            });
+            let mut beyond = steps.clone();
+            for (b, w) in beyond.data_mut().iter_mut().zip(weight.data()) {
+                *b = w * (*b - expected);
+            }
+            let (sum, count) = (blur(&beyond, reach), blur(&weight, reach));
+            Grid::from_fn(width, height, |x, y| {
+                if within(x, y) {
+                    let mean = sum[(x, y)] / (count[(x, y)] + UNKNOWN);
+                    steps[(x, y)] - expected - mean
+                } else {
+                    0.0
+                }
+            })
+        };
+        Self {
+            right: bent(&steps.right, (1, 0), expected[0]),
+            down: bent(&steps.down, (0, 1), expected[1]),
+        }
+    }
+}
+
 impl FieldPrior {
-    /// c for every edge of `departure` = ρ − plane.
-    pub fn edges(&self, departure: &Grid<f32>) -> Edges {
-        let (width, height) = (departure.width(), departure.height());
+    /// c for every edge.
+    pub fn edges(&self, bends: &Bends) -> Edges {
+        let (width, height) = (bends.right.width(), bends.right.height());
         let e2 = (self.epsilon * self.epsilon) as f32;
         let flat = (self.strength as f32) / e2;
         let weight = |r2: f32| match self.diffusion {
@@ -50,17 +118,7 @@ impl FieldPrior {
         for y in 0..height {
             for x in 0..width {
                 let i = y * width + x;
-                let here = departure.data()[i];
-                let dx = if x + 1 < width {
-                    departure.data()[i + 1] - here
-                } else {
-                    0.0
-                };
-                let dy = if y + 1 < height {
-                    departure.data()[i + width] - here
-                } else {
-                    0.0
-                };
+                let (dx, dy) = (bends.right.data()[i], bends.down.data()[i]);
                 let c = weight(dx * dx + dy * dy);
                 if x + 1 < width {
                     right[i] = c;
@@ -80,22 +138,21 @@ impl Edges {
         Elliptic::new(width, height, data, self.right.clone(), self.below.clone())
     }
 
-    /// −L(departure): how smoothing pulls on the field as it is.
-    pub fn pull(&self, departure: &Grid<f32>) -> Grid<f32> {
-        let (width, height) = (departure.width(), departure.height());
+    /// How smoothing pulls on the field as it is: minus half the energy's gradient.
+    pub fn pull(&self, bends: &Bends) -> Grid<f32> {
+        let (width, height) = (bends.right.width(), bends.right.height());
         let mut pull = Grid::new(width, height, 0.0f32);
-        let d = departure.data();
         let out = pull.data_mut();
         for y in 0..height {
             for x in 0..width {
                 let i = y * width + x;
                 if x + 1 < width {
-                    let flux = self.right[i] * (d[i + 1] - d[i]);
+                    let flux = self.right[i] * bends.right.data()[i];
                     out[i] += flux;
                     out[i + 1] -= flux;
                 }
                 if y + 1 < height {
-                    let flux = self.below[i] * (d[i + width] - d[i]);
+                    let flux = self.below[i] * bends.down.data()[i];
                     out[i] += flux;
                     out[i + width] -= flux;
                 }
@@ -116,29 +173,15 @@ impl Edges {
         f64::from(sum)
     }
 
-    /// Σ c (difference)².
-    pub fn energy(&self, departure: &Grid<f32>) -> f64 {
-        let width = departure.width();
-        let d = departure.data();
-        let mut sum = 0.0;
-        for i in 0..d.len() {
-            if self.right[i] > 0.0 {
-                sum += f64::from(self.right[i] * (d[i + 1] - d[i]).powi(2));
-            }
-            if self.below[i] > 0.0 {
-                sum += f64::from(self.below[i] * (d[i + width] - d[i]).powi(2));
-            }
-        }
-        sum
+    /// Σ c (bend)².
+    pub fn energy(&self, bends: &Bends) -> f64 {
+        let (right, down) = (bends.right.data(), bends.down.data());
+        let each = (0..right.len()).map(|i| {
+            f64::from(self.right[i] * right[i] * right[i])
+                + f64::from(self.below[i] * down[i] * down[i])
+        });
+        each.sum()
     }
-}
-
-/// The plane α + βx + γy nearest to `rho` under `weight`, at every pixel.
-pub fn fitted_plane(rho: &Grid<f32>, weight: &Grid<f32>) -> Grid<f32> {
-    let plane = Plane::fit(rho, weight);
-    Grid::from_fn(rho.width(), rho.height(), |x, y| {
-        plane.at(x as f64, y as f64) as f32
-    })
 }
 
 /// A plane over a grid.
@@ -186,6 +229,11 @@ impl Plane {
     pub fn at(&self, x: f64, y: f64) -> f64 {
         let basis = self.basis(x, y);
         (0..3).map(|i| self.coefficients[i] * basis[i]).sum()
+    }
+
+    /// Its rise over a pixel to the right and down.
+    pub fn slope(&self) -> [f64; 2] {
+        [1, 2].map(|i| self.coefficients[i] / self.unit)
     }
 
     fn basis(&self, x: f64, y: f64) -> [f64; 3] {

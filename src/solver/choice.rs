@@ -75,6 +75,10 @@ pub(super) fn chosen(
         .collect();
     let least = fits.iter().map(|f| f.cost).fold(f64::INFINITY, f64::min);
     let enough = least + untold(region, evidence);
+    if std::env::var("DBG").is_ok() {
+        let t: Vec<String> = fits.iter().map(|f| format!("{:?} {:.1}", f.region.kind, f.cost - least)).collect();
+        eprintln!("SEL w{} least {:.0} untold {:.1} {}", evidence.window.width, least, enough - least, t.join(", "));
+    }
     // Rotation and translation are as simple as each other.
     let rank = |fit: &Fit| match fit.region.kind {
         Kind::Still => 0,
@@ -106,8 +110,8 @@ fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
     let weight = evidence.weights(&linearisation);
     let variance = evidence.sigma * evidence.sigma;
     let (mut misfit, mut pixels, mut freedom) = (0.0, 0.0, 0.0);
-    let departure = region.departure(&linearisation, &weight);
-    let edges = prior.edges(&departure);
+    let bends = region.bends(&linearisation, evidence, &weight);
+    let edges = prior.edges(&bends);
     for i in 0..weight.len() {
         if evidence.owned.data()[i] <= 0.0 {
             continue;
@@ -127,7 +131,7 @@ fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
         Kind::Full => 5.0,
     };
     let smoothness = if region.kind.translates() {
-        (edges.energy(&departure) + region.relief_energy(prior, evidence)) / variance
+        (edges.energy(&bends) + region.relief_energy(prior, evidence)) / variance
     } else {
         0.0
     };

@@ -476,12 +476,13 @@ impl Approach for Layers {
                 return 0.0;
             }
             let window = lines[k].window;
-            let weight = self.evidence(k, window, options).weights(&lines[k]);
+            let evidence = self.evidence(k, window, options);
+            let weight = evidence.weights(&lines[k]);
             if weight.data().iter().all(|w| *w <= 0.0) {
                 return 0.0;
             }
-            let departure = region.cropped(&window).departure(&lines[k], &weight);
-            prior.edges(&departure).energy(&departure)
+            let bends = region.cropped(&window).bends(&lines[k], &evidence, &weight);
+            prior.edges(&bends).energy(&bends)
         };
         let length: f64 = self.phi.iter().map(curves::length).sum();
         // In pixels of the frame: areas grow fourfold from scale to scale, lengths twofold.

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use super::evidence::Evidence;
 use crate::camera::RigidMotion;
 use crate::constraint::Coefficients;
-use crate::depth::{FieldPrior, Plane, fitted_plane};
+use crate::depth::{Bends, FieldPrior, Plane};
 use crate::grid::Grid;
 use crate::motion::{Blocks, Candidate, JointStep, Kind, held, solve_positive};
 use crate::warp::{Linearisation, RESIDUAL, Scale};
@@ -14,6 +14,8 @@ use crate::window::Window;
 
 /// Inverse depth is kept between these; the region's mean is 1.
 pub(super) const RHO_RANGE: [f32; 2] = [0.02, 20.0];
+/// Pixels over which a surface's slope is taken for the same.
+const SLOPE: f64 = 8.0;
 /// Search only replaces a motion that it beats by this share.
 const BETTER: f64 = 0.97;
 
@@ -200,7 +202,7 @@ impl Region {
             right[i][0] -= w * slope * offset;
         }
         let flat = Grid::new(width, height, 0.0f32);
-        let edges = prior.edges(&flat);
+        let edges = prior.edges(&Bends::of(&flat));
         let mut rho = vec![[1.0f32; 1]; n];
         edges
             .system(width, height, data)
@@ -214,10 +216,10 @@ impl Region {
     pub fn fit_jointly(&mut self, evidence: &Evidence, prior: &FieldPrior) {
         let linearisation = evidence.linearise(self);
         let weight = evidence.weights(&linearisation);
-        let departure = self.departure(&linearisation, &weight);
-        let edges = prior.edges(&departure);
+        let bends = self.bends(&linearisation, evidence, &weight);
+        let edges = prior.edges(&bends);
         let mut data = certainty(&linearisation, &weight);
-        let mut pull = edges.pull(&departure);
+        let mut pull = edges.pull(&bends);
         self.flatten(prior, evidence, &mut data, &mut pull);
         let step = JointStep {
             rows: &linearisation.rows,
@@ -242,10 +244,10 @@ impl Region {
         }
         let linearisation = evidence.linearise(self);
         let weight = evidence.weights(&linearisation);
-        let departure = self.departure(&linearisation, &weight);
-        let edges = prior.edges(&departure);
+        let bends = self.bends(&linearisation, evidence, &weight);
+        let edges = prior.edges(&bends);
         let mut data = certainty(&linearisation, &weight);
-        let mut pull = edges.pull(&departure);
+        let mut pull = edges.pull(&bends);
         self.flatten(prior, evidence, &mut data, &mut pull);
         let system = edges.system(weight.width(), weight.height(), data.into_vec());
         let right: Vec<[f32; 1]> = linearisation
@@ -316,13 +318,15 @@ impl Region {
         }
     }
 
-    /// ρ less the plane that fits it best where depth shows.
-    pub fn departure(&self, linearisation: &Linearisation, weight: &Grid<f32>) -> Grid<f32> {
-        let mut departure = fitted_plane(&self.rho, &certainty(linearisation, weight));
-        for (d, &rho) in departure.data_mut().iter_mut().zip(self.rho.data()) {
-            *d = rho - *d;
-        }
-        departure
+    /// How ρ departs from its own slope: what is smoothed.
+    pub fn bends(
+        &self,
+        linearisation: &Linearisation,
+        evidence: &Evidence,
+        weight: &Grid<f32>,
+    ) -> Bends {
+        let plane = Plane::fit(&self.rho, &certainty(linearisation, weight));
+        Bends::about_slope(&self.rho, &evidence.owned, &plane, SLOPE)
     }
 
     fn add_depth(&mut self, step: impl Iterator<Item = f32>) {
