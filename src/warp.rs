@@ -38,6 +38,8 @@ pub struct Scale {
     pub first_gradient: (Grid<f32>, Grid<f32>),
     /// ∂/∂x and ∂/∂y of the second frame.
     pub second_gradient: (Grid<f32>, Grid<f32>),
+    /// ‖∇(∂I/∂x)‖² + ‖∇(∂I/∂y)‖² of the first frame.
+    pub bend: Grid<f32>,
 }
 
 /// A region's constraint at every pixel of a window of the frame.
@@ -58,9 +60,16 @@ pub struct Linearisation {
 impl Scale {
     /// Prepares two frames of the same size.
     pub fn new(camera: Camera, first: Grid<f32>, second: Grid<f32>) -> Self {
+        let first_gradient = gradient(&first);
+        let (xx, xy) = gradient(&first_gradient.0);
+        let (yx, yy) = gradient(&first_gradient.1);
+        let bend = Grid::from_fn(first.width(), first.height(), |x, y| {
+            [&xx, &xy, &yx, &yy].map(|d| d[(x, y)].powi(2)).iter().sum()
+        });
         Self {
-            first_gradient: gradient(&first),
+            first_gradient,
             second_gradient: gradient(&second),
+            bend,
             camera,
             first,
             second,
@@ -146,6 +155,16 @@ impl Scale {
             flow,
             inside,
         }
+    }
+}
+
+impl Linearisation {
+    /// The second frame's gradient at the place reached less the first's, at pixel `i` of the window.
+    pub fn gradient_change(&self, scale: &Scale, i: usize) -> [f32; 2] {
+        let at = self.window.place(i);
+        let [ix, iy] = self.gradient.data()[i];
+        let (first_x, first_y) = &scale.first_gradient;
+        [2.0 * (ix - first_x[at]), 2.0 * (iy - first_y[at])]
     }
 }
 

@@ -3,13 +3,15 @@
 mod competition;
 mod contour;
 mod evolution;
+mod islands;
 mod redistance;
 mod shape;
 mod threshold;
 
-pub use competition::{misfit, refuted, residual_in_units};
+pub use competition::Measure;
 pub use contour::{Contour, contours};
 pub use evolution::{evolve, labels, length};
+pub use islands::without_islands;
 pub use redistance::redistance;
 pub use shape::Shape;
 pub use threshold::threshold;

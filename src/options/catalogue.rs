@@ -155,6 +155,24 @@ static CATALOGUE: &[Descriptor] = &[
         "Let regions compete in units of each residual's uncertainty, so that strong texture does not out-vote weak. Coarse to fine only.",
         "ξ in (17)",
     ),
+    toggle(
+        "gradients",
+        "Gradients compete",
+        "Let regions compete for a pixel by the gradient of brightness as well, which tells texture from a change of light. Coarse to fine only.",
+        "ξ in (17)",
+    ),
+    toggle(
+        "occlusion",
+        "Excuse the hidden",
+        "Charge a constant, not the residual, where a region in front covers the place that a pixel goes to. Coarse to fine only.",
+        "ξ in (17)",
+    ),
+    toggle(
+        "islands",
+        "No islands",
+        "Keep curves in one piece: islands and small holes go. Coarse to fine only.",
+        "step 3",
+    ),
     Descriptor {
         key: "depth_steps",
         label: "Depth steps",

@@ -107,6 +107,12 @@ pub struct Options {
     pub robust: bool,
     /// Whether regions compete in units of each residual's uncertainty.
     pub normalised: bool,
+    /// Whether gradients compete besides brightness.
+    pub gradients: bool,
+    /// Whether hidden pixels are excused from the competition.
+    pub occlusion: bool,
+    /// Whether a curve bounds one thing, without islands.
+    pub islands: bool,
     /// Passes after which the solver gives up.
     pub max_passes: usize,
     /// Share of pixels that may still change region in a pass that counts as still.
@@ -139,6 +145,9 @@ impl Options {
                 choose_kind: false,
                 robust: false,
                 normalised: false,
+                gradients: false,
+                occlusion: false,
+                islands: false,
                 max_passes: 150,
                 tolerance: 2e-4,
             },
@@ -151,6 +160,9 @@ impl Options {
                 choose_kind: true,
                 robust: true,
                 normalised: true,
+                gradients: true,
+                occlusion: true,
+                islands: true,
                 max_passes: 60,
                 preset,
                 ..Self::preset(Preset::Paper)

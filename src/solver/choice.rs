@@ -27,7 +27,7 @@ use super::region::Region;
 /// n0, in pixels.
 const CORRELATED: f64 = 6.0;
 /// δ, in pixels.
-const INTERPOLATION: f64 = 0.05;
+const INTERPOLATION: f64 = 0.035;
 /// Joint steps that each start is fitted with, and those with which the best of each kind goes on.
 const STEPS: [usize; 2] = [3, 5];
 
@@ -76,8 +76,17 @@ pub(super) fn chosen(
     let least = fits.iter().map(|f| f.cost).fold(f64::INFINITY, f64::min);
     let enough = least + untold(region, evidence);
     if std::env::var("DBG").is_ok() {
-        let t: Vec<String> = fits.iter().map(|f| format!("{:?} {:.1}", f.region.kind, f.cost - least)).collect();
-        eprintln!("SEL w{} least {:.0} untold {:.1} {}", evidence.window.width, least, enough - least, t.join(", "));
+        let t: Vec<String> = fits
+            .iter()
+            .map(|f| format!("{:?} {:.1}", f.region.kind, f.cost - least))
+            .collect();
+        eprintln!(
+            "SEL w{} least {:.0} untold {:.1} {}",
+            evidence.window.width,
+            least,
+            enough - least,
+            t.join(", ")
+        );
     }
     // Rotation and translation are as simple as each other.
     let rank = |fit: &Fit| match fit.region.kind {

@@ -2,13 +2,14 @@
 //! and what the second frame hides.
 
 use crate::camera::RigidMotion;
-use crate::curves;
+use crate::curves::{self, Measure};
 use crate::depth;
 use crate::grid::Grid;
 use crate::interpretation::{Flow, Interpretation};
 use crate::motion::Kind;
-use crate::occlusion::occluded;
-use crate::warp::Scale;
+use crate::warp::{Linearisation, Scale};
+
+use super::rivalry;
 
 /// One region at the frame's size.
 pub(super) struct Layer {
@@ -18,13 +19,12 @@ pub(super) struct Layer {
     pub rho: Grid<f32>,
 }
 
-/// What `layers` and the curves `level_sets` between them say of the frames at `scale`, whose residual
-/// has standard deviation `sigma`.
+/// What `layers` and the curves `level_sets` between them say of the frames at `scale`.
 pub(super) fn composed(
     scale: &Scale,
     level_sets: &[Grid<f32>],
     layers: &[Layer],
-    sigma: f64,
+    measure: &Measure,
 ) -> Interpretation {
     let (width, height) = (scale.width(), scale.height());
     let labels = curves::labels(level_sets, width, height);
@@ -34,13 +34,17 @@ pub(super) fn composed(
     };
     let mut depth = Grid::new(width, height, 1.0f32);
     let mut confidence = Grid::new(width, height, 0.0f32);
-    let mut target = vec![[0.0f32; 2]; width * height];
-    let mut chi2 = vec![0.0f32; width * height];
-    for (k, layer) in layers.iter().enumerate() {
-        let line = scale.linearise(&layer.motion, &layer.rho, scale.whole());
+    let lines: Vec<Linearisation> = layers
+        .iter()
+        .map(|layer| scale.linearise(&layer.motion, &layer.rho, scale.whole()))
+        .collect();
+    let xi = rivalry::residuals(&lines, scale, measure);
+    let cover = rivalry::cover(&lines, &xi, &labels, measure);
+    let mut occluded = Grid::new(width, height, 0u8);
+    for (k, (layer, line)) in layers.iter().zip(&lines).enumerate() {
         let shows = layer.kind.translates();
         let slope = line.rows.map(|row| if shows { row[0] } else { 0.0 });
-        let certain = depth::confidence(&slope, sigma);
+        let certain = depth::confidence(&slope, measure.sigma);
         for i in 0..labels.len() {
             if usize::from(labels.data()[i]) != k {
                 continue;
@@ -54,15 +58,12 @@ pub(super) fn composed(
             flow.u.data_mut()[i] = u as f32;
             flow.v.data_mut()[i] = v as f32;
             depth.data_mut()[i] = rho.recip();
-            confidence.data_mut()[i] = if shows { certain.data()[i] } else { 0.0 };
-            target[i] = [(x + u) as f32, (y + v) as f32];
-            chi2[i] = curves::misfit(&line, i, sigma, true);
-        }
-    }
-    let occluded = occluded(&labels, &target, &chi2);
-    for (c, &hidden) in confidence.data_mut().iter_mut().zip(occluded.data()) {
-        if hidden != 0 {
-            *c = 0.0;
+            let to = [(x + u) as f32, (y + v) as f32];
+            let hidden = !line.inside.data()[i] || cover.hides(k, to);
+            occluded.data_mut()[i] = u8::from(hidden);
+            if shows && !hidden {
+                confidence.data_mut()[i] = certain.data()[i];
+            }
         }
     }
     Interpretation {

@@ -14,9 +14,10 @@ use super::choice;
 use super::composition::{Layer, composed};
 use super::evidence::Evidence;
 use super::region::{Region, certainty};
+use super::rivalry;
 use super::weights::{Weights, spread};
 use crate::camera::{Camera, RigidMotion};
-use crate::curves;
+use crate::curves::{self, Measure};
 use crate::depth::FieldPrior;
 use crate::energy::Energy;
 use crate::frames::{FramePair, doubled, halved};
@@ -50,12 +51,10 @@ const JOINT_STEPS: usize = 2;
 const MARGIN: usize = 20;
 /// Side of the blocks in which depth is eliminated, in pixels.
 const BLOCK: usize = 8;
+/// Least σ of the gradient's change: frames of 8 bits are not known better.
+const LEAST_GRADIENT_SIGMA: f64 = 0.2;
 /// A region of fewer pixels than this keeps the motion that it has.
 const FEWEST: usize = 8;
-/// A curve pays this, in variances, for pixels that are nearer to another by this share of the frame's
-/// width: of two that move alike, the nearer takes them.
-const FAR: (f64, f32) = (2.0, 0.05);
-
 /// The layers, and the scale at which they stand.
 pub(super) struct Layers {
     pair: Rc<FramePair>,
@@ -71,6 +70,8 @@ pub(super) struct Layers {
     weights: Weights,
     /// σ of each region's own residual, grey levels.
     spreads: Vec<f64>,
+    /// σ of the gradient's change, grey levels per pixel.
+    gradient_sigma: f64,
 }
 
 impl Layers {
@@ -98,6 +99,7 @@ impl Layers {
             labels: Grid::new(width, height, 0),
             regions: vec![Region::new(width, height); regions],
             spreads: vec![0.0; regions],
+            gradient_sigma: LEAST_GRADIENT_SIGMA,
             weights: Weights::of_layers(f64::INFINITY, false, options),
             scales,
         };
@@ -249,6 +251,7 @@ impl Layers {
     /// σ as the owners see it; while curves mean little, as the best of all regions does.
     fn measure_noise(&mut self, lines: &[Linearisation], options: &Options) {
         let flat = self.deep_passes().is_none();
+        let mut changes = Vec::new();
         let mut least = Grid::new(self.labels.width(), self.labels.height(), f32::INFINITY);
         for (k, line) in lines.iter().enumerate() {
             let mut own = Vec::new();
@@ -259,6 +262,7 @@ impl Layers {
                     let r = line.rows.data()[i][RESIDUAL].abs();
                     if owns {
                         own.push(r);
+                        changes.extend(line.gradient_change(self.here(), i));
                     }
                     if flat || owns {
                         least[at] = least[at].min(r);
@@ -269,32 +273,27 @@ impl Layers {
         }
         let seen = least.data().iter().filter(|r| r.is_finite());
         let sigma = spread(seen.copied().collect());
+        self.gradient_sigma = spread(changes).max(LEAST_GRADIENT_SIGMA);
         self.weights = Weights::of_layers(sigma, self.settled(), options);
+    }
+
+    fn measure(&self, options: &Options) -> Measure {
+        Measure {
+            sigma: self.weights.sigma,
+            gradient_sigma: options.gradients.then_some(self.gradient_sigma),
+            normalised: options.normalised,
+        }
     }
 
     /// ξ of every region.
     fn competition(&self, lines: &[Linearisation], options: &Options) -> Vec<Grid<f32>> {
-        let sigma = self.weights.sigma;
-        let (width, height) = (self.labels.width(), self.labels.height());
-        let mut xi: Vec<Grid<f32>> = lines
-            .iter()
-            .map(|line| {
-                let mut all = Grid::new(width, height, curves::refuted(sigma));
-                let own = curves::residual_in_units(line, sigma, options.normalised);
-                line.window.paste(&own, &mut all);
-                all
-            })
-            .collect();
-        let reach = FAR.1 * self.here().width() as f32;
-        let price = (FAR.0 * sigma * sigma) as f32;
-        for i in 0..self.labels.len() {
-            let inside = self.phi.iter().map(|phi| phi.data()[i]);
-            let nearest = inside.fold(f32::NEG_INFINITY, f32::max);
-            for (xi, phi) in xi[1..].iter_mut().zip(&self.phi) {
-                let farther = nearest - phi.data()[i];
-                xi.data_mut()[i] += price * (farther / reach).min(1.0);
-            }
+        let measure = self.measure(options);
+        let mut xi = rivalry::residuals(lines, self.here(), &measure);
+        if options.occlusion && self.level == 0 && self.pass >= 2 {
+            let cover = rivalry::cover(lines, &xi, &self.labels, &measure);
+            rivalry::excuse_hidden(&mut xi, lines, &cover, &measure);
         }
+        rivalry::charge_distance(&mut xi, &self.phi, &measure);
         xi
     }
 
@@ -418,6 +417,9 @@ impl Approach for Layers {
             };
             self.phi = curves::threshold(&xi, sigma);
         }
+        if options.islands && self.deep_passes().is_some() {
+            curves::without_islands(&mut self.phi);
+        }
         self.labels = curves::labels(&self.phi, self.labels.width(), self.labels.height());
     }
 
@@ -535,7 +537,11 @@ impl Approach for Layers {
             &self.scales[0],
             &self.level_sets(),
             &read,
-            self.weights.sigma,
+            &Measure {
+                sigma: self.weights.sigma,
+                gradient_sigma: Some(self.gradient_sigma),
+                normalised: true,
+            },
         )
     }
 }

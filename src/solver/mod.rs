@@ -14,6 +14,7 @@ mod evidence;
 mod layers;
 mod region;
 mod report;
+mod rivalry;
 mod single_scale;
 mod weights;
 
