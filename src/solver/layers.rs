@@ -20,7 +20,7 @@ use crate::camera::{Camera, RigidMotion};
 use crate::curves::{self, Measure};
 use crate::depth::FieldPrior;
 use crate::energy::Energy;
-use crate::frames::{FramePair, doubled, halved};
+use crate::frames::{FramePair, blur, doubled, halved};
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 use crate::motion::Kind;
@@ -30,7 +30,7 @@ use crate::warp::{Linearisation, RESIDUAL, Scale, pyramid};
 use crate::window::Window;
 
 /// Regions start on the coarsest scale whose shorter side is at least this.
-const STARTING: usize = 50;
+const STARTING: usize = 100;
 /// Passes on the first scale, and how many of them regions are flat for.
 const FIRST_PASSES: (usize, usize) = (10, 5);
 /// Passes on each scale between the first and the finest.
@@ -51,6 +51,11 @@ const JOINT_STEPS: usize = 2;
 const MARGIN: usize = 20;
 /// Side of the blocks in which depth is eliminated, in pixels.
 const BLOCK: usize = 8;
+/// Pixels that their owner does not explain are offered to regions within this distance, in pixels, and
+/// count this much there: a region grows over an edge of its surface only if its depth follows.
+const OFFERED: (f32, f32) = (8.0, 0.5);
+/// Mean ξ, in variances, from which a pixel is not explained, and the mean's standard deviation in pixels.
+const UNEXPLAINED: (f32, f64) = (3.5, 1.5);
 /// Least σ of the gradient's change: frames of 8 bits are not known better.
 const LEAST_GRADIENT_SIGMA: f64 = 0.2;
 /// A region of fewer pixels than this keeps the motion that it has.
@@ -66,6 +71,8 @@ pub(super) struct Layers {
     pass: usize,
     phi: Vec<Grid<f32>>,
     labels: Grid<u8>,
+    /// Pixels that their owner does not explain.
+    unclaimed: Grid<bool>,
     regions: Vec<Region>,
     weights: Weights,
     /// σ of each region's own residual, grey levels.
@@ -97,6 +104,7 @@ impl Layers {
             pass: 0,
             phi: Vec::new(),
             labels: Grid::new(width, height, 0),
+            unclaimed: Grid::new(width, height, false),
             regions: vec![Region::new(width, height); regions],
             spreads: vec![0.0; regions],
             gradient_sigma: LEAST_GRADIENT_SIGMA,
@@ -188,14 +196,31 @@ impl Layers {
 
     /// What region k is to be fitted to, in its window.
     fn evidence(&self, k: usize, window: Window, options: &Options) -> Evidence<'_> {
-        let owned = window.crop(&self.labels);
+        let owned = Grid::from_fn(window.width, window.height, |x, y| {
+            let at = (window.left + x, window.top + y);
+            if usize::from(self.labels[at]) == k {
+                1.0
+            } else if self.unclaimed[at] && self.distance(k, at) < OFFERED.0 {
+                OFFERED.1
+            } else {
+                0.0
+            }
+        });
         Evidence {
             scale: self.here(),
             window,
-            owned: owned.map(|l| f32::from(usize::from(l) == k)),
+            owned,
             sigma: self.weights.sigma,
             spread: self.spreads[k].max(self.weights.sigma),
             robust: options.robust,
+        }
+    }
+
+    /// Pixels from `at` to region k.
+    fn distance(&self, k: usize, at: (usize, usize)) -> f32 {
+        match k {
+            0 => self.phi.iter().fold(f32::NEG_INFINITY, |d, phi| d.max(phi[at])),
+            _ => -self.phi[k - 1][at],
         }
     }
 
@@ -309,6 +334,7 @@ impl Layers {
             region.shade = doubled(&region.shade, width, height);
         }
         self.labels = curves::labels(&self.phi, width, height);
+        self.unclaimed = Grid::new(width, height, false);
     }
 
     /// A field of the scale at work at the frame's size.
@@ -347,7 +373,7 @@ impl Approach for Layers {
             && (self.level < self.start || self.level == 0)
             && (pass + CHOOSING == last || self.level == 0 && pass == CHOOSING_AGAIN);
         let searching = options.search && self.level == self.start;
-        let reliefs: &[f64] = if self.level > 0 { &RELIEFS } else { &[] };
+        let reliefs: &[f64] = if self.level > 0 { &RELIEFS } else { &RELIEFS[..1] };
         self.each_region(options, |region, evidence, prior| {
             if options.motion == MotionMethod::LeastSquares {
                 region.fit_flat(evidence);
@@ -421,6 +447,12 @@ impl Approach for Layers {
             curves::without_islands(&mut self.phi);
         }
         self.labels = curves::labels(&self.phi, self.labels.width(), self.labels.height());
+        let mut own = xi[0].clone();
+        for (i, o) in own.data_mut().iter_mut().enumerate() {
+            *o = xi[usize::from(self.labels.data()[i])].data()[i];
+        }
+        let most = UNEXPLAINED.0 * (self.weights.sigma * self.weights.sigma) as f32;
+        self.unclaimed = blur(&own, UNEXPLAINED.1).map(|o| o > most);
     }
 
     fn end_pass(&mut self, _still: bool, _options: &Options) -> bool {

@@ -55,7 +55,7 @@ impl Weights {
             mu: options
                 .mu
                 .unwrap_or(MU_OF_LAYERS[usize::from(settled)] * variance),
-            lambda: options.lambda.unwrap_or(variance),
+            lambda: options.lambda.unwrap_or(2.0 * variance),
             sigma,
             first_sigma: sigma,
         }
