@@ -12,7 +12,7 @@
 //! Grey levels throughout; x' in pixels from the principal point.
 
 use crate::camera::{Camera, RigidMotion};
-use crate::frames::{FramePair, blur, gradient, halved, halved_camera};
+use crate::frames::{FramePair, Lighting, blur, gradient, halved, halved_camera};
 use crate::grid::Grid;
 use crate::window::Window;
 
@@ -84,6 +84,20 @@ impl Scale {
     /// Rows.
     pub fn height(&self) -> usize {
         self.first.height()
+    }
+
+    /// Changes the first frame's brightness to what it is in the light of the second.
+    pub fn relight(&mut self, lighting: Lighting) {
+        let (gain, offset) = (lighting.gain as f32, lighting.offset as f32);
+        let scale = |grid: &mut Grid<f32>, gain: f32, offset: f32| {
+            grid.data_mut()
+                .iter_mut()
+                .for_each(|v| *v = gain * *v + offset);
+        };
+        scale(&mut self.first, gain, offset);
+        scale(&mut self.first_gradient.0, gain, 0.0);
+        scale(&mut self.first_gradient.1, gain, 0.0);
+        scale(&mut self.bend, gain * gain, 0.0);
     }
 
     /// All of the frame.

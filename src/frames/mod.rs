@@ -3,9 +3,11 @@
 mod derivatives;
 mod frame;
 mod gaussian;
+mod lighting;
 mod pyramid;
 
 pub use derivatives::{Derivatives, gradient};
 pub use frame::{Frame, FramePair, MAX_SIDE, MIN_SIDE};
 pub use gaussian::blur;
+pub use lighting::Lighting;
 pub use pyramid::{doubled, halved, halved_camera};

@@ -156,6 +156,12 @@ static CATALOGUE: &[Descriptor] = &[
         "ξ in (17)",
     ),
     toggle(
+        "lighting",
+        "Light may change",
+        "Allow for a gain and an offset between the frames, and for smooth changes of brightness over each region. Coarse to fine only.",
+        "ψ in (7)",
+    ),
+    toggle(
         "gradients",
         "Gradients compete",
         "Let regions compete for a pixel by the gradient of brightness as well, which tells texture from a change of light. Coarse to fine only.",

@@ -107,6 +107,8 @@ pub struct Options {
     pub robust: bool,
     /// Whether regions compete in units of each residual's uncertainty.
     pub normalised: bool,
+    /// Whether brightness may change between the frames.
+    pub lighting: bool,
     /// Whether gradients compete besides brightness.
     pub gradients: bool,
     /// Whether hidden pixels are excused from the competition.
@@ -145,6 +147,7 @@ impl Options {
                 choose_kind: false,
                 robust: false,
                 normalised: false,
+                lighting: false,
                 gradients: false,
                 occlusion: false,
                 islands: false,
@@ -155,15 +158,16 @@ impl Options {
                 motion: MotionMethod::Joint,
                 depth: DepthMethod::Layers,
                 epsilon: 3e-3,
-                smoothing: 0.7,
+                smoothing: 0.5,
                 search: true,
                 choose_kind: true,
                 robust: true,
                 normalised: true,
+                lighting: true,
                 gradients: true,
                 occlusion: true,
                 islands: true,
-                max_passes: 60,
+                max_passes: 40,
                 preset,
                 ..Self::preset(Preset::Paper)
             },

@@ -20,10 +20,10 @@ use crate::camera::{Camera, RigidMotion};
 use crate::curves::{self, Measure};
 use crate::depth::FieldPrior;
 use crate::energy::Energy;
-use crate::frames::{FramePair, blur, doubled, halved};
+use crate::frames::{FramePair, Lighting, blur, doubled, halved};
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
-use crate::motion::Kind;
+use crate::motion::{Kind, solve_positive};
 use crate::options::{MotionMethod, Options};
 use crate::start::{self, Patch};
 use crate::warp::{Linearisation, RESIDUAL, Scale, pyramid};
@@ -45,6 +45,8 @@ const CHOOSING_AGAIN: usize = THRESHOLD_PASSES + 3;
 const RELIEFS: [f64; 4] = [-1.0, 0.4, 2.5, -2.5];
 /// Relief expected, as a share of a region's extent over the focal length, and what it counts, in variances.
 const RELIEF: (f64, f64) = (1.5, 10.0);
+/// The pass of a scale after which the change of brightness is measured.
+const RELIT: usize = 3;
 /// Joint steps in a pass.
 const JOINT_STEPS: usize = 2;
 /// Pixels around a region in which its field is computed, and beyond which its curve does not leap.
@@ -66,6 +68,8 @@ pub(super) struct Layers {
     /// The finest first.
     scales: Vec<Scale>,
     smoothing: f64,
+    /// What the first frame's brightness has been changed by in all scales.
+    lighting: Lighting,
     level: usize,
     start: usize,
     pass: usize,
@@ -89,7 +93,13 @@ impl Layers {
         level_sets: Vec<Grid<f32>>,
         options: &Options,
     ) -> Self {
-        let scales = pyramid(&pair, camera, options.smoothing);
+        let mut scales = pyramid(&pair, camera, options.smoothing);
+        let lighting = if options.lighting {
+            Lighting::between(&pair.first().grey, &pair.second().grey)
+        } else {
+            Lighting::default()
+        };
+        scales.iter_mut().for_each(|scale| scale.relight(lighting));
         let start = scales
             .iter()
             .rposition(|s| s.width().min(s.height()) >= STARTING)
@@ -99,6 +109,7 @@ impl Layers {
         let mut layers = Self {
             pair,
             smoothing: options.smoothing,
+            lighting,
             level: start,
             start,
             pass: 0,
@@ -219,7 +230,10 @@ impl Layers {
     /// Pixels from `at` to region k.
     fn distance(&self, k: usize, at: (usize, usize)) -> f32 {
         match k {
-            0 => self.phi.iter().fold(f32::NEG_INFINITY, |d, phi| d.max(phi[at])),
+            0 => self
+                .phi
+                .iter()
+                .fold(f32::NEG_INFINITY, |d, phi| d.max(phi[at])),
             _ => -self.phi[k - 1][at],
         }
     }
@@ -322,6 +336,38 @@ impl Layers {
         xi
     }
 
+    /// Gain and offset anew, from where the first frame's pixels are found in the second: least squares
+    /// of the residual on brightness, over what fits.
+    fn measure_lighting(&mut self, options: &Options) {
+        let mut normal = [[0.0f64; 2]; 2];
+        let mut right = [0.0f64; 2];
+        for (k, line) in self.linearisations().iter().enumerate() {
+            let weight = self.evidence(k, line.window, options).weights(line);
+            let shade = line.window.crop(&self.regions[k].shade);
+            for (i, &w) in weight.data().iter().enumerate() {
+                let w = f64::from(w);
+                let basis = [f64::from(self.here().first[line.window.place(i)]), 1.0];
+                let change = f64::from(line.rows.data()[i][RESIDUAL] + shade.data()[i]);
+                for a in 0..2 {
+                    right[a] += w * basis[a] * change;
+                    for b in 0..2 {
+                        normal[a][b] += w * basis[a] * basis[b];
+                    }
+                }
+            }
+        }
+        if let Some([gain, offset]) = solve_positive(&normal, &right) {
+            let change = Lighting {
+                gain: 1.0 + gain,
+                offset,
+            };
+            self.lighting = self.lighting.then(change);
+            self.scales
+                .iter_mut()
+                .for_each(|scale| scale.relight(change));
+        }
+    }
+
     fn next_scale(&mut self) {
         self.level -= 1;
         self.pass = 0;
@@ -373,7 +419,11 @@ impl Approach for Layers {
             && (self.level < self.start || self.level == 0)
             && (pass + CHOOSING == last || self.level == 0 && pass == CHOOSING_AGAIN);
         let searching = options.search && self.level == self.start;
-        let reliefs: &[f64] = if self.level > 0 { &RELIEFS } else { &RELIEFS[..1] };
+        let reliefs: &[f64] = if self.level > 0 {
+            &RELIEFS
+        } else {
+            &RELIEFS[..1]
+        };
         self.each_region(options, |region, evidence, prior| {
             if options.motion == MotionMethod::LeastSquares {
                 region.fit_flat(evidence);
@@ -398,7 +448,7 @@ impl Approach for Layers {
             self.each_region(options, |region, evidence, prior| {
                 region.fit_depth(evidence, prior);
                 region.normalise(&evidence.owned);
-                if std::env::var("NOSHADE").is_err() {
+                if options.lighting {
                     region.shade = evidence.shade(region);
                 }
             });
@@ -455,8 +505,11 @@ impl Approach for Layers {
         self.unclaimed = blur(&own, UNEXPLAINED.1).map(|o| o > most);
     }
 
-    fn end_pass(&mut self, _still: bool, _options: &Options) -> bool {
+    fn end_pass(&mut self, _still: bool, options: &Options) -> bool {
         self.pass += 1;
+        if options.lighting && self.pass == RELIT {
+            self.measure_lighting(options);
+        }
         if self.level == 0 {
             return self.pass <= CHOOSING_AGAIN;
         }
@@ -475,6 +528,10 @@ impl Approach for Layers {
         if options.smoothing != self.smoothing {
             self.smoothing = options.smoothing;
             self.scales = pyramid(&self.pair, self.scales[0].camera, options.smoothing);
+            let lighting = self.lighting;
+            self.scales
+                .iter_mut()
+                .for_each(|scale| scale.relight(lighting));
         }
         self.weights = Weights::of_layers(self.weights.sigma, self.settled(), options);
     }
