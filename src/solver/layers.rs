@@ -32,7 +32,7 @@ use crate::window::Window;
 /// Regions start on the coarsest scale whose shorter side is at least this.
 const STARTING: usize = 100;
 /// Passes on the first scale, and how many of them regions are flat for.
-const FIRST_PASSES: (usize, usize) = (10, 5);
+const FIRST_PASSES: (usize, usize) = (10, 3);
 /// Passes on each scale between the first and the finest.
 const PASSES: usize = 6;
 /// Passes of threshold dynamics on the finest scale before (17) takes over.
