@@ -14,7 +14,7 @@ use crate::cases::Case;
 use crate::measure::{Figures, solve};
 use crate::summary::{LIMIT_LARGE, LIMIT_SMALL, Summary, geometric_mean};
 use crate::table::{each, head, heading, kinds, number, percent, preset, row, status, true_kinds};
-use crate::threads::in_order;
+use crate::threads::try_in_order;
 
 /// What is known of one case: a result for each preset, and the baseline's AEE.
 struct Measured {
@@ -44,21 +44,14 @@ pub fn print(cases: &[Case], asked: &Asked) -> Result<(), Failure> {
         "status",
     ]);
     let mut all = Vec::new();
-    let mut failed = None;
-    in_order(
+    try_in_order(
         cases,
         |case| measure(case, &asked.presets),
-        |_, result| match result {
-            Ok(measured) => {
-                rows(&measured);
-                all.push(measured);
-            }
-            Err(error) => failed = failed.take().or(Some(error)),
+        |_, measured| {
+            rows(&measured);
+            all.push(measured);
         },
-    );
-    if let Some(error) = failed {
-        return Err(error);
-    }
+    )?;
     println!(
         "\nWhere there are several regions, the background's figure comes first, then each curve's. S: still, \
          R: rotation, T: translation, F: full motion.\n"
@@ -136,16 +129,17 @@ fn summaries(all: &[Measured], presets: &[Preset]) {
         "converged",
         "energy's rise, %",
     ]);
-    let groups: [(&str, fn(&Measured) -> bool); 3] = [
-        ("built-in", |m| !m.drawn),
-        ("variants", |m| m.drawn),
-        ("all", |_| true),
+    let groups = [
+        ("built-in", Some(false)),
+        ("variants", Some(true)),
+        ("all", None),
     ];
     for &which in presets {
-        for (group, belongs) in groups {
-            let these: Vec<&Measured> = all.iter().filter(|m| belongs(m)).collect();
+        for (group, drawn) in groups {
+            let belongs = |m: &&Measured| drawn.is_none_or(|drawn| drawn == m.drawn);
+            let these: Vec<&Measured> = all.iter().filter(belongs).collect();
             // All of one sort are said once.
-            if these.is_empty() || (group != "all" && these.len() == all.len()) {
+            if these.is_empty() || (drawn.is_some() && these.len() == all.len()) {
                 continue;
             }
             summary(which, group, &these);

@@ -6,10 +6,16 @@
 mod ask;
 mod cases;
 mod data;
+#[allow(dead_code, reason = "scenes need more of it")]
+#[path = "../../src/scene/dice.rs"]
+mod dice;
 mod export;
 mod figures;
+mod levers;
 mod measure;
+mod placements;
 mod recorded;
+mod starts;
 mod summary;
 mod table;
 mod threads;
@@ -47,7 +53,11 @@ fn run(asked: &Asked) -> Result<(), Failure> {
     match &asked.work {
         Work::Help => println!("{HELP}"),
         Work::Export(folder) => export(&cases, folder)?,
-        Work::Levers | Work::Starts => {}
+        Work::Levers => levers::print(&cases)?,
+        Work::Starts if asked.names.is_empty() => {
+            starts::print(&starts::usual(&cases), &asked.presets)?;
+        }
+        Work::Starts => starts::print(&cases, &asked.presets)?,
         Work::Figures => {
             if !cases.is_empty() {
                 figures::print(&cases, asked)?;
@@ -75,10 +85,5 @@ fn check(asked: &Asked, cases: &[Case], recorded: &[&Recorded]) -> Result<(), Fa
 
 fn export(cases: &[Case], folder: &Path) -> Result<(), Failure> {
     let write = |case: &Case| export::write(&case.render()?, folder);
-    let mut failed = None;
-    threads::in_order(cases, write, |case, result| match result {
-        Ok(()) => println!("{}", case.name()),
-        Err(error) => failed = failed.take().or(Some(error)),
-    });
-    failed.map_or(Ok(()), Err)
+    threads::try_in_order(cases, write, |case, ()| println!("{}", case.name()))
 }

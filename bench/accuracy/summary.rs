@@ -104,7 +104,8 @@ fn headings(regions: &[&Region], size: impl Fn(&Region) -> bool, limit: f64) -> 
     )
 }
 
-fn count<T>(things: &[T], good: impl Fn(&T) -> bool) -> Count {
+/// How many of `things` are good.
+pub fn count<T>(things: &[T], good: impl Fn(&T) -> bool) -> Count {
     Count {
         good: things.iter().filter(|thing| good(thing)).count(),
         all: things.len(),

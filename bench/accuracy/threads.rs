@@ -4,6 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
+use crate::Failure;
+
 /// Calls `work` on every item and `done` with each result in the order of the items, as soon as all
 /// before it are there: a long run shows its rows while it goes on.
 pub fn in_order<T: Sync, R: Send>(
@@ -37,6 +39,56 @@ pub fn in_order<T: Sync, R: Send>(
             }
         }
     });
+}
+
+/// The same for work that can fail: `done` sees what did not, and the first failure is returned.
+pub fn try_in_order<T: Sync, R: Send>(
+    items: &[T],
+    work: impl Fn(&T) -> Result<R, Failure> + Sync,
+    mut done: impl FnMut(&T, R),
+) -> Result<(), Failure> {
+    let mut outcome = Ok(());
+    in_order(items, work, |item, result| match result {
+        Ok(result) => done(item, result),
+        Err(failure) if outcome.is_ok() => outcome = Err(failure),
+        Err(_) => {}
+    });
+    outcome
+}
+
+/// The same for items in groups: `done` sees all results of a group at once. Threads do not wait for a
+/// group's end.
+pub fn in_groups<G: Sync, T: Sync, R: Send>(
+    groups: &[(G, Vec<T>)],
+    work: impl Fn(&G, &T) -> Result<R, Failure> + Sync,
+    mut done: impl FnMut(&G, &[R]),
+) -> Result<(), Failure> {
+    let flat: Vec<(&(G, Vec<T>), &T)> = groups
+        .iter()
+        .flat_map(|group| group.1.iter().map(move |item| (group, item)))
+        .collect();
+    let mut results = Vec::new();
+    try_in_order(
+        &flat,
+        |((of, _), item)| work(of, item),
+        |((of, items), _), result| {
+            results.push(result);
+            if results.len() == items.len() {
+                done(of, &results);
+                results.clear();
+            }
+        },
+    )
+}
+
+/// All results.
+pub fn all<T: Sync, R: Send>(
+    items: &[T],
+    work: impl Fn(&T) -> Result<R, Failure> + Sync,
+) -> Result<Vec<R>, Failure> {
+    let mut results = Vec::new();
+    try_in_order(items, work, |_, result| results.push(result))?;
+    Ok(results)
 }
 
 fn take<'a, T>(next: &AtomicUsize, items: &'a [T]) -> Option<(usize, &'a T)> {
