@@ -137,3 +137,42 @@ impl Circle {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use relievo::scene;
+
+    #[test]
+    fn circles_by_lot_lie_on_their_objects_and_apart() {
+        let scene = scene::render("carousel", 96, 72).unwrap();
+        let labels = &scene.truth.labels;
+        let sets = drawn(&scene.curves, labels, 5, 1);
+        assert_eq!(sets.len(), 5);
+        assert_eq!(sets, drawn(&scene.curves, labels, 5, 1));
+        assert_ne!(sets, drawn(&scene.curves, labels, 5, 2));
+        for set in sets {
+            let (own, set) = (circles(&scene.curves), circles(&set));
+            for (k, circle) in set.iter().enumerate() {
+                assert!(covered(circle, labels, k + 1) >= LEAST_COVERED);
+                let growth = circle.r / own[k].r;
+                assert!((GROWTH[0]..=GROWTH[1]).contains(&growth));
+                assert!(
+                    set[..k]
+                        .iter()
+                        .all(|other| shared(circle, other) <= MOST_SHARED)
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn two_circles_share_what_they_share() {
+        let circle = |x: f64, r: f64| Circle { x, y: 0.0, r };
+        assert_eq!(shared(&circle(0.0, 1.0), &circle(2.0, 1.0)), 0.0);
+        assert_eq!(shared(&circle(0.0, 1.0), &circle(0.5, 3.0)), 1.0);
+        // Through each other's centre: (2π/3 − √3/2)/π.
+        let through = shared(&circle(0.0, 2.0), &circle(2.0, 2.0));
+        assert!((through - 0.391).abs() < 1e-3, "{through}");
+    }
+}
