@@ -12,7 +12,8 @@ use crate::Failure;
 use crate::ask::Asked;
 use crate::cases::Case;
 use crate::measure::{Figures, solve};
-use crate::summary::{LIMIT_LARGE, LIMIT_SMALL, Summary, geometric_mean};
+use crate::statistics::geometric_mean;
+use crate::summary::{LIMIT_LARGE, LIMIT_SMALL, Summary};
 use crate::table::{each, head, heading, kinds, number, percent, preset, row, status, true_kinds};
 use crate::threads::try_in_order;
 

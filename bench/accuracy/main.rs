@@ -16,6 +16,7 @@ mod measure;
 mod placements;
 mod recorded;
 mod starts;
+mod statistics;
 mod summary;
 mod table;
 mod threads;

@@ -17,11 +17,11 @@ const PLACEMENTS: [[f64; 3]; PLANNED] = [
 ];
 
 /// What a drawn circle's radius is multiplied by, at least and at most.
-const GROWTH: [f64; 2] = [0.5, 1.5];
+pub const GROWTH: [f64; 2] = [0.5, 1.5];
 /// Share of its object that a drawn circle covers at least.
-const LEAST_COVERED: f64 = 0.15;
+pub const LEAST_COVERED: f64 = 0.15;
 /// Share of the smaller of two drawn circles that the other may cover.
-const MOST_SHARED: f64 = 0.1;
+pub const MOST_SHARED: f64 = 0.1;
 /// Draws after which a circle, or a set of them, is given up.
 const DRAWS: usize = 10_000;
 
@@ -49,14 +49,19 @@ pub fn drawn(curves: &[Shape], labels: &Grid<u8>, count: usize, seed: u64) -> Ve
     (0..count).filter_map(draw).collect()
 }
 
+/// A circle in pixels.
 #[derive(Clone, Copy)]
-struct Circle {
-    x: f64,
-    y: f64,
-    r: f64,
+pub struct Circle {
+    /// Column of its centre.
+    pub x: f64,
+    /// Row of its centre.
+    pub y: f64,
+    /// Its radius.
+    pub r: f64,
 }
 
-fn circles(curves: &[Shape]) -> Vec<Circle> {
+/// Those of `curves` that are circles.
+pub fn circles(curves: &[Shape]) -> Vec<Circle> {
     let circle = |curve: &Shape| match *curve {
         Shape::Circle { x, y, r } => Some(Circle { x, y, r }),
         Shape::Polygon { .. } => None,
@@ -98,7 +103,7 @@ fn one(own: &Circle, labels: &Grid<u8>, k: usize, dice: &mut Dice) -> Option<Cir
 }
 
 /// Share of object `k` that lies in the circle.
-fn covered(circle: &Circle, labels: &Grid<u8>, k: usize) -> f64 {
+pub fn covered(circle: &Circle, labels: &Grid<u8>, k: usize) -> f64 {
     let (mut inside, mut all) = (0.0, 0.0);
     for (i, _) in (labels.data().iter().enumerate()).filter(|(_, label)| usize::from(**label) == k)
     {
@@ -110,7 +115,7 @@ fn covered(circle: &Circle, labels: &Grid<u8>, k: usize) -> f64 {
 }
 
 /// The area common to two circles over the smaller one's.
-fn shared(a: &Circle, b: &Circle) -> f64 {
+pub fn shared(a: &Circle, b: &Circle) -> f64 {
     let apart = (a.x - b.x).hypot(a.y - b.y);
     let (small, large) = (a.r.min(b.r), a.r.max(b.r));
     if apart >= small + large {
@@ -135,44 +140,5 @@ impl Circle {
             y: self.y,
             r: self.r,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use relievo::scene;
-
-    #[test]
-    fn circles_by_lot_lie_on_their_objects_and_apart() {
-        let scene = scene::render("carousel", 96, 72).unwrap();
-        let labels = &scene.truth.labels;
-        let sets = drawn(&scene.curves, labels, 5, 1);
-        assert_eq!(sets.len(), 5);
-        assert_eq!(sets, drawn(&scene.curves, labels, 5, 1));
-        assert_ne!(sets, drawn(&scene.curves, labels, 5, 2));
-        for set in sets {
-            let (own, set) = (circles(&scene.curves), circles(&set));
-            for (k, circle) in set.iter().enumerate() {
-                assert!(covered(circle, labels, k + 1) >= LEAST_COVERED);
-                let growth = circle.r / own[k].r;
-                assert!((GROWTH[0]..=GROWTH[1]).contains(&growth));
-                assert!(
-                    set[..k]
-                        .iter()
-                        .all(|other| shared(circle, other) <= MOST_SHARED)
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn two_circles_share_what_they_share() {
-        let circle = |x: f64, r: f64| Circle { x, y: 0.0, r };
-        assert_eq!(shared(&circle(0.0, 1.0), &circle(2.0, 1.0)), 0.0);
-        assert_eq!(shared(&circle(0.0, 1.0), &circle(0.5, 3.0)), 1.0);
-        // Through each other's centre: (2π/3 − √3/2)/π.
-        let through = shared(&circle(0.0, 2.0), &circle(2.0, 2.0));
-        assert!((through - 0.391).abs() < 1e-3, "{through}");
     }
 }

@@ -8,7 +8,8 @@ use crate::Failure;
 use crate::cases::Case;
 use crate::measure::solve;
 use crate::placements::{PLANNED, drawn, planned};
-use crate::summary::{Count, count, greatest, median};
+use crate::statistics::{greatest, median};
+use crate::summary::{Count, count};
 use crate::table::{head, percent, preset, row};
 use crate::threads::{all, in_groups};
 

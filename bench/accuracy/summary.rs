@@ -3,6 +3,7 @@
 use relievo::Status;
 
 use crate::measure::{Figures, Heading, Region};
+use crate::statistics::{geometric_mean, greatest, mean, median};
 
 /// Share of the frame above which a region counts as large.
 const LARGE: f64 = 0.15;
@@ -72,29 +73,6 @@ impl Summary {
     }
 }
 
-/// The geometric mean, none of nothing.
-pub fn geometric_mean(values: &[f64]) -> Option<f64> {
-    let logarithms: Vec<f64> = values.iter().map(|v| v.ln()).collect();
-    mean(&logarithms).map(f64::exp)
-}
-
-/// The value in the middle, or the mean of the two there.
-pub fn median(values: &[f64]) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let (low, high) = (sorted.len().checked_sub(1)? / 2, sorted.len() / 2);
-    Some((sorted[low] + sorted[high]) / 2.0)
-}
-
-/// The greatest value.
-pub fn greatest(values: &[f64]) -> Option<f64> {
-    values.iter().copied().max_by(f64::total_cmp)
-}
-
-fn mean(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
-}
-
 fn headings(regions: &[&Region], size: impl Fn(&Region) -> bool, limit: f64) -> Count {
     let these = regions.iter().filter(|r| size(r));
     let headings: Vec<Heading> = these.filter_map(|r| r.heading).collect();
@@ -118,19 +96,5 @@ impl std::fmt::Display for Count {
             0 => out.write_str("–"),
             all => write!(out, "{} of {all}", self.good),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn means_and_medians() {
-        assert_eq!(median(&[]), None);
-        assert_eq!(median(&[3.0, 1.0, 2.0]), Some(2.0));
-        assert_eq!(median(&[4.0, 1.0, 2.0, 3.0]), Some(2.5));
-        assert_eq!(geometric_mean(&[]), None);
-        assert!((geometric_mean(&[1.0, 4.0]).unwrap() - 2.0).abs() < 1e-12);
     }
 }
