@@ -1,0 +1,107 @@
+//! The command line: what to measure, and what to print.
+
+use std::path::PathBuf;
+
+use relievo::options::Preset;
+
+use crate::Failure;
+use crate::cases::SEED;
+
+/// What `--help` prints.
+pub const HELP: &str = "\
+npm run accuracy -- [NAME…] [--preset paper|best] [--seed N] [--tsv FILE] [--data DIR]
+npm run accuracy -- --levers [NAME…] [--seed N]
+npm run accuracy -- --starts [NAME…] [--preset paper|best] [--seed N]
+npm run accuracy -- --export DIR [NAME…] [--seed N]
+
+Solves the built-in sequences and 20 random variants, and says how far each result is from the truth.
+
+NAME          only these: blocks, carousel-1003, …
+--preset      only this preset
+--seed N      draw the variants from the seeds N to N+19 instead of 1000 to 1019
+--tsv FILE    write name, preset, AEE and labels wrong as well
+--data DIR    solve the recorded sequences in DIR as well
+--levers      what each option of `best` is worth: it is switched off alone
+--starts      how much the result depends on where the circles are drawn
+--export DIR  solve nothing; write frames and truth into a folder for each sequence";
+
+/// What a run does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Work {
+    /// Prints what to type.
+    Help,
+    /// Prints the table of figures.
+    Figures,
+    /// Prints what each option is worth.
+    Levers,
+    /// Prints how results depend on the curves.
+    Starts,
+    /// Writes frames and truth.
+    Export(PathBuf),
+}
+
+/// What was asked for.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// What to do.
+    pub work: Work,
+    /// Sequences to pick; none for all of them.
+    pub names: Vec<String>,
+    /// Presets to measure.
+    pub presets: Vec<Preset>,
+    /// The first variant's seed.
+    pub seed: u64,
+    /// Where to write figures for other programs.
+    pub tsv: Option<PathBuf>,
+    /// Where recorded sequences are.
+    pub data: Option<PathBuf>,
+}
+
+impl Asked {
+    /// Reads the words of a command line.
+    pub fn read(mut words: impl Iterator<Item = String>) -> Result<Self, Failure> {
+        let mut asked = Self {
+            work: Work::Figures,
+            names: Vec::new(),
+            presets: Preset::ALL.to_vec(),
+            seed: SEED,
+            tsv: None,
+            data: None,
+        };
+        while let Some(word) = words.next() {
+            let mut value = || {
+                let next = words.next();
+                next.ok_or_else(|| format!("{word} needs a value"))
+            };
+            match word.as_str() {
+                "--help" => asked.work = Work::Help,
+                "--levers" => asked.work = Work::Levers,
+                "--starts" => asked.work = Work::Starts,
+                "--export" => asked.work = Work::Export(value()?.into()),
+                "--tsv" => asked.tsv = Some(value()?.into()),
+                "--data" => asked.data = Some(value()?.into()),
+                "--preset" => asked.presets = vec![preset(&value()?)?],
+                "--seed" => {
+                    let text = value()?;
+                    let seed = text.parse();
+                    asked.seed = seed.map_err(|_| format!("--seed {text} is no whole number"))?;
+                }
+                option if option.starts_with('-') => {
+                    return Err(format!("{option} is not known\n\n{HELP}").into());
+                }
+                _ => asked.names.push(word),
+            }
+        }
+        Ok(asked)
+    }
+
+    /// Whether the sequence of this name is to be measured.
+    pub fn wants(&self, name: &str) -> bool {
+        self.names.is_empty() || self.names.iter().any(|asked| asked == name)
+    }
+}
+
+fn preset(word: &str) -> Result<Preset, Failure> {
+    let quoted = serde_json::to_value(word)?;
+    serde_json::from_value(quoted).map_err(|_| format!("{word} is no preset").into())
+}
