@@ -14,6 +14,8 @@ use crate::grid::Grid;
 const REFUTED: f32 = 3.0;
 /// χ² at which evidence of one pixel saturates.
 const SATURATION: f32 = 16.0;
+/// Places that two regions must share for one to be said to hide the other.
+const MEETING: usize = 10;
 /// What a hidden pixel is charged, in variances of the residual.
 pub const HIDDEN: f32 = 3.0;
 
@@ -69,6 +71,24 @@ impl Cover {
             }
         }
         cover
+    }
+
+    /// For each region those behind it that go to some of the places that it goes to.
+    pub fn behind(&self) -> Vec<Vec<usize>> {
+        let regions = self.landed.len();
+        let meets = |j: usize, k: usize| {
+            let pairs = self.landed[j].iter().zip(&self.landed[k]);
+            pairs
+                .filter(|(a, b)| a.is_finite() && b.is_finite())
+                .count()
+                >= MEETING
+        };
+        (0..regions)
+            .map(|j| {
+                let behind = (0..regions).filter(|&k| k != j && self.is_in_front(j, k));
+                behind.filter(|&k| meets(j, k)).collect()
+            })
+            .collect()
     }
 
     /// Whether region `j` is in front of region `k`.

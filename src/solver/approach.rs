@@ -44,6 +44,9 @@ pub(super) trait Approach {
     /// The motion of each region and what kind it is.
     fn motions(&self) -> Vec<(RigidMotion, Kind)>;
 
+    /// For each region those of which it hides a part; empty as long as nobody has asked.
+    fn behind(&self) -> Vec<Vec<usize>>;
+
     /// The weights in force.
     fn weights(&self) -> Weights;
 

@@ -75,19 +75,6 @@ pub(super) fn chosen(
         .collect();
     let least = fits.iter().map(|f| f.cost).fold(f64::INFINITY, f64::min);
     let enough = least + untold(region, evidence);
-    if std::env::var("DBG").is_ok() {
-        let t: Vec<String> = fits
-            .iter()
-            .map(|f| format!("{:?} {:.1}", f.region.kind, f.cost - least))
-            .collect();
-        eprintln!(
-            "SEL w{} least {:.0} untold {:.1} {}",
-            evidence.window.width,
-            least,
-            enough - least,
-            t.join(", ")
-        );
-    }
     // Rotation and translation are as simple as each other.
     let rank = |fit: &Fit| match fit.region.kind {
         Kind::Still => 0,

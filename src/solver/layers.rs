@@ -24,13 +24,16 @@ use crate::frames::{FramePair, Lighting, blur, doubled, halved};
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 use crate::motion::{Kind, solve_positive};
+use crate::occlusion::Cover;
 use crate::options::{MotionMethod, Options};
 use crate::start::{self, Patch};
 use crate::warp::{Linearisation, RESIDUAL, Scale, pyramid};
 use crate::window::Window;
 
-/// Regions start on the coarsest scale whose shorter side is at least this.
-const STARTING: usize = 100;
+/// Regions start on the coarsest scale whose shorter side is at least this: where several compete, and
+/// where there is only one. At a coarse scale displacements are small, but so are the differences that tell
+/// regions apart.
+const STARTING: [usize; 2] = [100, 40];
 /// Passes on the first scale, and how many of them regions are flat for.
 const FIRST_PASSES: (usize, usize) = (10, 3);
 /// Passes on each scale between the first and the finest.
@@ -45,6 +48,8 @@ const CHOOSING_AGAIN: usize = THRESHOLD_PASSES + 3;
 const RELIEFS: [f64; 4] = [-1.0, 0.4, 2.5, -2.5];
 /// Relief expected, as a share of a region's extent over the focal length, and what it counts, in variances.
 const RELIEF: (f64, f64) = (1.5, 10.0);
+/// The pass on the finest scale from which hidden pixels are excused: from the start regions would collapse.
+const EXCUSING: usize = 2;
 /// The pass of a scale after which the change of brightness is measured.
 const RELIT: usize = 3;
 /// Joint steps in a pass.
@@ -83,6 +88,8 @@ pub(super) struct Layers {
     spreads: Vec<f64>,
     /// σ of the gradient's change, grey levels per pixel.
     gradient_sigma: f64,
+    /// The regions that each region hides part of; empty while that is not asked.
+    behind: Vec<Vec<usize>>,
 }
 
 impl Layers {
@@ -102,7 +109,9 @@ impl Layers {
         scales.iter_mut().for_each(|scale| scale.relight(lighting));
         let start = scales
             .iter()
-            .rposition(|s| s.width().min(s.height()) >= STARTING)
+            .rposition(|s| {
+                s.width().min(s.height()) >= STARTING[usize::from(level_sets.is_empty())]
+            })
             .unwrap_or(0);
         let (width, height) = (scales[start].width(), scales[start].height());
         let regions = level_sets.len() + 1;
@@ -119,6 +128,7 @@ impl Layers {
             regions: vec![Region::new(width, height); regions],
             spreads: vec![0.0; regions],
             gradient_sigma: LEAST_GRADIENT_SIGMA,
+            behind: Vec::new(),
             weights: Weights::of_layers(f64::INFINITY, false, options),
             scales,
         };
@@ -325,15 +335,21 @@ impl Layers {
     }
 
     /// ξ of every region.
-    fn competition(&self, lines: &[Linearisation], options: &Options) -> Vec<Grid<f32>> {
+    fn competition(
+        &self,
+        lines: &[Linearisation],
+        options: &Options,
+    ) -> (Vec<Grid<f32>>, Option<Cover>) {
         let measure = self.measure(options);
         let mut xi = rivalry::residuals(lines, self.here(), &measure);
-        if options.occlusion && self.level == 0 && self.pass >= 2 {
-            let cover = rivalry::cover(lines, &xi, &self.labels, &measure);
-            rivalry::excuse_hidden(&mut xi, lines, &cover, &measure);
+        let late = self.level == 0 && self.pass >= EXCUSING;
+        let cover =
+            (options.occlusion && late).then(|| rivalry::cover(lines, &xi, &self.labels, &measure));
+        if let Some(cover) = &cover {
+            rivalry::excuse_hidden(&mut xi, lines, cover, &measure);
         }
         rivalry::charge_distance(&mut xi, &self.phi, &measure);
-        xi
+        (xi, cover)
     }
 
     /// Gain and offset anew, from where the first frame's pixels are found in the second: least squares
@@ -461,29 +477,8 @@ impl Approach for Layers {
         if self.phi.is_empty() {
             return;
         }
-        // ORACLE-BEGIN
-        if let Some(o) = crate::solver::ORACLE.with(|o| o.borrow().clone()) {
-            let side = 1usize << self.level;
-            for k in 1..=self.phi.len() {
-                let mut phi = Grid::from_fn(self.labels.width(), self.labels.height(), |x, y| {
-                    let (x, y) = (
-                        (x * side + side / 2).min(o.width() - 1),
-                        (y * side + side / 2).min(o.height() - 1),
-                    );
-                    if usize::from(o[(x, y)]) == k {
-                        1.0
-                    } else {
-                        -1.0
-                    }
-                });
-                curves::redistance(&mut phi);
-                self.phi[k - 1] = phi;
-            }
-            self.labels = curves::labels(&self.phi, self.labels.width(), self.labels.height());
-            return;
-        }
-        // ORACLE-END
-        let xi = self.competition(&lines, options);
+        let (xi, cover) = self.competition(&lines, options);
+        self.behind = cover.map_or_else(Vec::new, |cover| cover.behind());
         if self.settled() {
             curves::evolve(&mut self.phi, &xi, self.weights.lambda, options.curve_steps);
         } else {
@@ -545,6 +540,8 @@ impl Approach for Layers {
         self.regions
             .resize(level_sets.len() + 1, Region::new(width, height));
         self.spreads.resize(level_sets.len() + 1, 0.0);
+        self.behind.clear();
+        self.unclaimed.data_mut().fill(false);
         self.place_curves(level_sets);
         self.propose_motions(known);
     }
@@ -554,7 +551,7 @@ impl Approach for Layers {
             return Energy::default();
         }
         let lines = self.linearisations();
-        let xi = self.competition(&lines, options);
+        let (xi, _) = self.competition(&lines, options);
         let owners = self.labels.data().iter().enumerate();
         let data = owners
             .map(|(i, &k)| f64::from(xi[usize::from(k)].data()[i]))
@@ -601,6 +598,10 @@ impl Approach for Layers {
         let each = self.regions.iter();
         each.map(|r| (r.motion, r.kind.min(Kind::seen(&camera, &r.motion))))
             .collect()
+    }
+
+    fn behind(&self) -> Vec<Vec<usize>> {
+        self.behind.clone()
     }
 
     fn weights(&self) -> Weights {

@@ -37,11 +37,6 @@ use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 use crate::options::{DepthMethod, MAX_CURVES, Options};
 
-thread_local! {
-    /// oracle
-    pub static ORACLE: std::cell::RefCell<Option<Grid<u8>>> = const { std::cell::RefCell::new(None) };
-}
-
 /// Where the solver stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]

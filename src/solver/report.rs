@@ -34,6 +34,8 @@ pub struct RegionReport {
     pub rotation: [f64; 3],
     /// still, rotation, translation or full.
     pub kind: Kind,
+    /// Labels of the regions that it hides a part of.
+    pub in_front_of: Vec<usize>,
 }
 
 /// The state of a solver.
@@ -85,6 +87,7 @@ impl Report {
     pub(super) fn of(solver: &Solver) -> Self {
         let motions = solver.approach.motions();
         let labels = solver.approach.labels();
+        let behind = solver.approach.behind();
         let (level, levels) = solver.approach.scale();
         let regions: Vec<RegionReport> = motions
             .iter()
@@ -98,6 +101,7 @@ impl Report {
                 translation: motion.translation.to_array(),
                 rotation: motion.rotation.to_array(),
                 kind: *kind,
+                in_front_of: behind.get(label).cloned().unwrap_or_default(),
             })
             .collect();
         let energy = solver.energy();

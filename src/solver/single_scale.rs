@@ -248,6 +248,10 @@ impl Approach for SingleScale {
         self.motions.iter().map(seen).collect()
     }
 
+    fn behind(&self) -> Vec<Vec<usize>> {
+        Vec::new()
+    }
+
     fn weights(&self) -> Weights {
         self.weights
     }
