@@ -27,7 +27,7 @@ use super::region::Region;
 /// n0, in pixels.
 const CORRELATED: f64 = 6.0;
 /// δ, in pixels.
-const INTERPOLATION: f64 = 0.035;
+const INTERPOLATION: f64 = 0.03;
 /// Joint steps that each start is fitted with, and those with which the best of each kind goes on.
 const STEPS: [usize; 2] = [3, 5];
 

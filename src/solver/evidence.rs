@@ -19,6 +19,8 @@ const ROTATION_SPREAD: f64 = 8.0;
 /// Smoothness of a change of brightness, in pixels, and the weight below which it is not known.
 const SHADE: f64 = 6.0;
 const UNSHADED: f32 = 0.05;
+/// Relief expected, as a share of a region's extent over the focal length, and what it counts, in variances.
+const RELIEF: (f64, f64) = (1.5, 10.0);
 /// Longest step of f T and of f ω, in pixels.
 const LONGEST_STEP: f64 = 8.0;
 
@@ -97,6 +99,25 @@ impl Evidence<'_> {
     /// Longest step of T and of ω.
     pub fn longest(&self) -> f64 {
         LONGEST_STEP / self.scale.camera.focal
+    }
+
+    /// Weight of (ρ − 1)² at a pixel: a surface is expected to be about as deep as it is wide. Its relief,
+    /// as a share of its distance, counts as [`RELIEF`] says against its extent over f.
+    pub fn relief_prior(&self) -> f64 {
+        let (mut n, mut sum, mut square) = (0.0f64, [0.0f64; 2], 0.0f64);
+        let owned = self.owned.data().iter().enumerate();
+        for (i, _) in owned.filter(|(_, w)| **w > 0.0) {
+            let (x, y) = self.window.place(i);
+            let (x, y) = (x as f64, y as f64);
+            n += 1.0;
+            sum = [sum[0] + x, sum[1] + y];
+            square += x * x + y * y;
+        }
+        let n = n.max(1.0);
+        let extent2 = square / n - (sum[0] / n).powi(2) - (sum[1] / n).powi(2);
+        let f = self.scale.camera.focal;
+        let relief2 = RELIEF.0 * RELIEF.0 * extent2 / (f * f);
+        RELIEF.1 * self.sigma * self.sigma / (n * relief2.max(1e-6))
     }
 
     /// Precision of ω, times the noise's variance.

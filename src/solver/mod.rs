@@ -12,9 +12,11 @@ mod choice;
 mod composition;
 mod evidence;
 mod layers;
+mod noise;
 mod region;
 mod report;
 mod rivalry;
+mod schedule;
 mod single_scale;
 mod weights;
 

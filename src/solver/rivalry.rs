@@ -9,6 +9,8 @@ use crate::warp::{Linearisation, Scale};
 /// A curve pays this, in variances, for pixels that are nearer to another by this share of the frame's
 /// width: of two that move alike, the nearer takes them.
 const FAR: (f32, f32) = (2.0, 0.05);
+/// Mean ξ, in variances, from which a pixel is not explained, and the mean's standard deviation in pixels.
+const UNEXPLAINED: (f32, f64) = (3.5, 1.5);
 /// Standard deviation of the window over which a landing is confirmed, in pixels.
 const CONFIRMING: f64 = 1.0;
 
@@ -25,6 +27,16 @@ pub(super) fn residuals(
         all
     };
     lines.iter().map(whole).collect()
+}
+
+/// Pixels that their owner does not explain.
+pub(super) fn unexplained(xi: &[Grid<f32>], labels: &Grid<u8>, sigma: f64) -> Grid<bool> {
+    let mut own = xi[0].clone();
+    for (i, o) in own.data_mut().iter_mut().enumerate() {
+        *o = xi[usize::from(labels.data()[i])].data()[i];
+    }
+    let most = UNEXPLAINED.0 * (sigma * sigma) as f32;
+    blur(&own, UNEXPLAINED.1).map(|o| o > most)
 }
 
 /// What the regions cover in the second frame, from their ξ.

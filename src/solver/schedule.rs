@@ -1,0 +1,161 @@
+//! What is due in which pass of the coarse-to-fine solver.
+//!
+//! Regions start on a coarse scale: flat (ρ = 1) for some passes while threshold dynamics finds roughly
+//! where they are, then with depth. A scale is done after a set number of passes; the finest goes over from
+//! threshold dynamics to (17) and ends when all stands still. Passes with depth are counted from 0.
+
+/// Regions start on the coarsest scale whose shorter side is at least this: where several compete, and
+/// where there is only one. At a coarse scale displacements are small, but so are the differences that tell
+/// regions apart.
+const STARTING: [usize; 2] = [100, 40];
+/// Passes in which regions are flat.
+const FLAT_PASSES: usize = 3;
+/// Passes with depth on the first scale, and on each between the first and the finest.
+const PASSES: [usize; 2] = [7, 6];
+/// Passes of threshold dynamics on the finest scale before (17) takes over.
+const THRESHOLD_PASSES: usize = 4;
+/// Passes before the last of threshold dynamics on a scale that kinds of motion are chosen.
+const CHOOSING: usize = 2;
+/// The pass on the finest scale in which they are chosen again, depth being known in detail by then.
+const CHOOSING_AGAIN: usize = THRESHOLD_PASSES + 3;
+/// The pass on the finest scale from which hidden pixels are excused: earlier, regions would collapse.
+const EXCUSING: usize = 2;
+/// The pass of a scale after which the change of light is measured.
+const RELIGHTING: usize = 2;
+/// Passes in which T is looked for over all directions.
+const SEARCHING: usize = 2;
+/// Depths of relief that a full motion is tried with; on the finest scale only the first, its mirror image.
+const RELIEFS: [f64; 4] = [-1.0, 0.4, 2.5, -2.5];
+/// Standard deviation of threshold dynamics' window in pixels: at first, with depth, and what it falls by in
+/// a pass in between.
+const WINDOW: [f64; 3] = [2.5, 1.2, 0.25];
+
+/// Where the solver stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Schedule {
+    /// The first scale, counted from 0, the finest.
+    pub start: usize,
+    /// The scale at work.
+    pub level: usize,
+    /// Passes made on this scale.
+    pass: usize,
+    /// Whether curves have been drawn since this scale was reached.
+    redrawn: bool,
+}
+
+impl Schedule {
+    /// The start for scales whose shorter sides are `sides`, the finest first, and so many `curves`.
+    pub fn new(
+        sides: impl DoubleEndedIterator<Item = usize> + ExactSizeIterator,
+        curves: usize,
+    ) -> Self {
+        let least = STARTING[usize::from(curves == 0)];
+        let start = sides
+            .into_iter()
+            .rposition(|side| side >= least)
+            .unwrap_or(0);
+        Self {
+            start,
+            level: start,
+            pass: 0,
+            redrawn: false,
+        }
+    }
+
+    /// The number of the pass among those with depth on this scale; `None` while regions are flat.
+    pub fn deep(&self) -> Option<usize> {
+        let flat = if self.level == self.start {
+            FLAT_PASSES
+        } else {
+            0
+        };
+        self.pass.checked_sub(flat)
+    }
+
+    fn at_least(&self, pass: usize) -> bool {
+        self.level == 0 && self.deep().is_some_and(|deep| deep >= pass)
+    }
+
+    /// Whether this is the first pass of all.
+    pub fn begins(&self) -> bool {
+        self.pass == 0
+    }
+
+    /// Whether regions are where they should be, to the pixel.
+    pub fn settled(&self) -> bool {
+        self.at_least(THRESHOLD_PASSES)
+    }
+
+    /// Whether a curve may still leap anywhere.
+    pub fn roams(&self) -> bool {
+        self.level == self.start || self.redrawn && !self.settled()
+    }
+
+    /// Whether T is looked for over all directions.
+    pub fn searches(&self) -> bool {
+        self.level == self.start && self.deep().is_some_and(|deep| deep < SEARCHING)
+    }
+
+    /// Whether kinds of motion are chosen.
+    pub fn chooses(&self) -> bool {
+        let Some(deep) = self.deep() else {
+            return false;
+        };
+        match self.level {
+            0 => deep + CHOOSING == THRESHOLD_PASSES || deep == CHOOSING_AGAIN,
+            level => level < self.start && deep + CHOOSING == PASSES[1],
+        }
+    }
+
+    /// Depths of relief that a full motion is tried with then.
+    pub fn reliefs(&self) -> &'static [f64] {
+        if self.level > 0 {
+            &RELIEFS
+        } else {
+            &RELIEFS[..1]
+        }
+    }
+
+    /// Whether hidden pixels are excused.
+    pub fn excuses(&self) -> bool {
+        self.at_least(EXCUSING)
+    }
+
+    /// Whether the change of light is to be measured after this pass.
+    pub fn relights(&self) -> bool {
+        self.pass == RELIGHTING
+    }
+
+    /// Standard deviation of threshold dynamics' window, in pixels.
+    pub fn window(&self) -> f64 {
+        let [first, last, fall] = WINDOW;
+        match self.deep() {
+            None => (first - fall * self.pass as f64).max(last),
+            Some(_) => last,
+        }
+    }
+
+    /// Ends a pass; whether the next finer scale is due.
+    pub fn advance(&mut self) -> bool {
+        self.pass += 1;
+        let most = PASSES[usize::from(self.level < self.start)];
+        let done = self.level > 0 && self.deep().is_some_and(|deep| deep >= most);
+        if done {
+            self.level -= 1;
+            self.pass = 0;
+            self.redrawn = false;
+        }
+        done
+    }
+
+    /// Whether there is more to do than waiting for all to stand still.
+    pub fn unfinished(&self) -> bool {
+        !self.at_least(CHOOSING_AGAIN + 1)
+    }
+
+    /// Goes back to the first pass of this scale, for curves drawn anew.
+    pub fn restart(&mut self) {
+        self.pass = 0;
+        self.redrawn = true;
+    }
+}
