@@ -125,12 +125,18 @@ function summarise({ status, iterations, regions, warnings, seconds }, out, file
   const vector = (/** @type {number[]} */ v) => v.map((x) => x.toPrecision(3)).join(", ");
   const end = status === "exhausted" ? "out of iterations" : status;
   console.log(`${end} after ${iterations} passes, ${seconds.total.toFixed(1)} s`);
+  const nameOf = (/** @type {number} */ label) => (label === 0 ? "background" : `curve ${label}`);
   for (const { label, share, kind, translation, rotation } of regions) {
-    const name = label === 0 ? "background" : `curve ${label}`;
+    const name = nameOf(label);
     console.log(
       `${name.padEnd(11)} ${(100 * share).toFixed(1).padStart(5)} %  ${kind.padEnd(11)}  ` +
         `T (${vector(translation)})  ω (${vector(rotation)}) rad`,
     );
+  }
+  for (const { label, in_front_of: behind } of regions) {
+    if (behind.length > 0) {
+      console.log(`note: ${nameOf(label)} hides part of ${behind.map(nameOf).join(" and ")}`);
+    }
   }
   for (const warning of warnings) console.log(`note: ${warning}`);
   console.log(`${out}/: ${files.map(({ name }) => name).join(" ")}`);

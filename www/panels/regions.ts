@@ -139,8 +139,12 @@ const briefly = (shape: Shape) =>
     ? `${Math.round(shape.x)}, ${Math.round(shape.y)} · radius ${Math.round(shape.r)}`
     : `${shape.points.length} corners`;
 
-const facing = ({ pixels, share, kind }: Region) =>
-  `${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)} · ${KINDS[kind] ?? kind}`;
+/** Curves are in front of the background anyway: only other curves are worth a word. */
+function facing({ pixels, share, kind, in_front_of }: Region): string {
+  const facts = `${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)} · ${KINDS[kind] ?? kind}`;
+  const curves = in_front_of.filter((label) => label > 0);
+  return curves.length ? `${facts} · in front of ${curves.join(" and ")}` : facts;
+}
 
 function fill(table: HTMLElement, region: Region): void {
   const cells = [...table.querySelectorAll<HTMLElement>("[data-number]")];

@@ -65,6 +65,8 @@ export interface Region {
   rotation: [number, number, number];
   /** Which of still, rotation, translation, full explains the region. */
   kind: string;
+  /** Labels of the regions that it hides a part of. */
+  in_front_of: number[];
 }
 
 export interface Report {
