@@ -1,15 +1,15 @@
-//! The inverse depth of one region over the whole frame: the system that both depth and the joint motion
-//! step solve.
+//! The inverse depth of one region: the system that both depth and the joint motion step solve.
 //!
 //! ```text
-//! E(ρ) = Σ ω_i (r + a δρ)² + Σ_edges c_ij ( (ρ − plane)_i − (ρ − plane)_j )²
+//! E(ρ) = Σ ω_i (r + a δρ)² + Σ_edges c_ij ( ρ_j − ρ_i − s_ij )² + κ Σ (ρ − 1)²
 //! ```
 //!
-//! ρ = 1/Z makes the data term linear. Smoothing acts on what ρ departs from the plane that fits the
-//! region best: ρ of a plane is linear in (x, y), so that a slanted wall costs nothing, and where there
-//! is no data, beyond the region's curve, ρ goes on as the plane does. c is (11) or (12) of
-//! ‖∇(ρ − plane)‖/ε, lagged; ε is in units of mean ρ per focal length, so that it means a slope of the
-//! surface and not of pixels, and the weight is in units of the noise's variance.
+//! ρ = 1/Z makes the data term linear. s is the slope that is expected: the mean of ρ's own steps over some
+//! pixels around, lagged, and that of the plane that fits best where the region has no pixels, so that ρ
+//! goes on as the plane does beyond the region's curve. Slanted and gently curved surfaces cost next to
+//! nothing; what is smoothed is how ρ bends. c is (11) or (12) of the bend over ε, lagged; ε is in units of
+//! mean ρ per focal length, so that it means a slope of the surface and not of pixels. Weights are in units of
+//! the noise's variance. κ keeps relief that nothing shows from growing.
 
 use super::elliptic::Elliptic;
 use crate::frames::blur;

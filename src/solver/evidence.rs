@@ -1,7 +1,9 @@
 //! What a region is fitted to: its pixels at one scale, and how much each of them counts.
 //!
-//! A residual r has the variance v = σ² + (δ‖∇I‖)², δ the error of position that a fit is granted, and
-//! counts with the weight σ²/v, less where r is large: ω = σ²/v · (1 + r²/(c² v))^(−½), Charbonnier's.
+//! A residual r has the variance v = σk² + (δ‖∇I‖)², σk that of the region's own residuals, large as long as its
+//! motion is wrong, and δ the error of position that a fit is granted. It counts with the weight
+//! σ²/v · (1 + r²/(c² v))⁻², Geman and McClure's: what does not fit at all does not count at all. Pixels that
+//! their owner does not explain are offered to the regions around, at half weight.
 
 use crate::frames::blur;
 use crate::grid::Grid;
@@ -12,7 +14,7 @@ use super::region::Region;
 
 /// Error of position granted when motion and depth are fitted, in pixels.
 const POSITION_ERROR: f32 = 0.06;
-/// Residuals of this many standard deviations count half as much as in least squares.
+/// c: residuals of this many standard deviations count a quarter as much as in least squares.
 const ROBUST: f32 = 3.0;
 /// Standard deviation of f·ω known beforehand, in pixels at the finest scale's width of 320.
 const ROTATION_SPREAD: f64 = 8.0;
