@@ -7,12 +7,14 @@ import { progress } from "./progress.js";
 import { numbers, parse } from "./words.js";
 
 /** @typedef {import("./options.js").Core} Core */
+/** @typedef {import("../pkg/relievo.js").Frame} Frame */
 
 const OWN = /** @type {const} */ ({
   focal: { type: "string" },
   centre: { type: "string" },
   circle: { type: "string", multiple: true },
   polygon: { type: "string", multiple: true },
+  auto: { type: "boolean" },
   preset: { type: "string" },
   iterations: { type: "string" },
   out: { type: "string" },
@@ -26,16 +28,19 @@ export function solve(core, words) {
   const { values, operands } = parse(words, { ...known(core), ...OWN });
   const [first, second] = framesOf(operands);
   const camera = cameraOf(values);
-  const shapes = shapesOf(words, values);
+  const drawn = shapesOf(words, values);
   const options = given(core, { "max-passes": values["iterations"], ...values });
   if (values["preset"] !== undefined) options["preset"] = values["preset"];
 
-  const frames = [first, second].map((path) => core.Frame.decode(read(path), path));
+  const frames = /** @type {[Frame, Frame]} */ (
+    [first, second].map((path) => core.Frame.decode(read(path), path))
+  );
+  const seen = JSON.stringify(camera);
+  const found = values["auto"] ? JSON.parse(core.findCurves(...frames, seen)) : null;
   const solver = new core.Solver(
-    /** @type {import("../pkg/relievo.js").Frame} */ (frames[0]),
-    /** @type {import("../pkg/relievo.js").Frame} */ (frames[1]),
-    JSON.stringify(camera),
-    JSON.stringify(shapes),
+    ...frames,
+    seen,
+    JSON.stringify(found ?? drawn),
     JSON.stringify(options),
   );
   const out = values["out"] ?? "out";
@@ -43,6 +48,7 @@ export function solve(core, words) {
   run(solver, mostPasses(core, options));
   const files = solver.files("{}");
   write(out, files);
+  if (found) announce(found);
   summarise(JSON.parse(solver.report()), out, files);
 }
 
@@ -75,9 +81,12 @@ function cameraOf({ focal, centre }) {
 /**
  * Circles and polygons in the order in which they were given: the k-th becomes label k.
  * @param {string[]} words
- * @param {Record<string, string[]>} values
+ * @param {Record<string, any>} values
  */
-function shapesOf(words, { circle = [], polygon = [] }) {
+function shapesOf(words, { circle = [], polygon = [], auto }) {
+  if (auto && circle.length + polygon.length > 0) {
+    throw new UsageError("--auto finds the curves by itself; leave out --circle and --polygon");
+  }
   const circles = circle.map((text) => {
     const [x, y, r] = numbers("circle", "X,Y,R", text, (count) => count === 3);
     return { kind: "circle", x, y, r };
@@ -114,6 +123,16 @@ function run(solver, most) {
   bar.show(passes);
   while (solver.step() === "running") bar.show((passes += 1));
   bar.clear();
+}
+
+/**
+ * Says which curves were found, as options that start from the same ones.
+ * @param {{ points: number[][] }[]} found
+ */
+function announce(found) {
+  const count = ["no curve is needed: one motion explains both frames", "1 curve found"];
+  console.log(count[found.length] ?? `${found.length} curves found`);
+  for (const { points } of found) console.log(`  --polygon ${points.flat().join(",")}`);
 }
 
 /**

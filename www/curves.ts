@@ -5,8 +5,9 @@
  */
 
 import { announce } from "./dom";
-import { configure } from "./session";
+import { ask, configure } from "./session";
 import { store } from "./store";
+import { findingOf } from "./wording";
 import type { Point, Shape } from "./worker/protocol";
 
 const MAX_UNDO = 200;
@@ -60,6 +61,19 @@ export function remove(index: number): void {
   announce(`Curve ${index + 1} deleted.`);
 }
 
+/** Puts the curves that the core finds by itself in place of those there are, as one step. */
+export async function find(): Promise<void> {
+  const { camera } = store.state;
+  store.update({ view: "curves", tool: "select" });
+  const found = await ask("Looking for what moves by itself", (service) => service.find(camera));
+  if (!found) return;
+  const before = store.state.shapes;
+  if (before.length + found.length > 0) record(before, found, null);
+  const finding = findingOf(found.length);
+  store.update({ finding });
+  announce(finding);
+}
+
 export function select(index: number | null): void {
   const { shapes, selected } = store.state;
   if (index === selected) return;
@@ -89,6 +103,7 @@ function restore(shapes: Shape[], history: { past: Shape[][]; future: Shape[][] 
   store.update({
     ...history,
     shapes,
+    finding: null,
     selected: selected !== null && selected < shapes.length ? selected : null,
   });
   void configure();
@@ -96,7 +111,7 @@ function restore(shapes: Shape[], history: { past: Shape[][]; future: Shape[][] 
 
 function record(before: Shape[], after: Shape[], selected: number | null): void {
   const past = [...store.state.past, before].slice(-MAX_UNDO);
-  store.update({ shapes: after, selected, past, future: [] });
+  store.update({ shapes: after, selected, past, future: [], finding: null });
   void configure();
 }
 

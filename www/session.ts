@@ -74,6 +74,7 @@ function adopt(source: Source, opened: Opened): void {
     selected: null,
     past: [],
     future: [],
+    finding: null,
     running: false,
     started: false,
     report: null,

@@ -60,6 +60,8 @@ export interface State {
   selected: number | null;
   past: Shape[][];
   future: Shape[][];
+  /** What the last look for curves came to, until they change. */
+  finding: string | null;
   camera: Camera;
   options: OptionValues;
 
@@ -131,6 +133,7 @@ export const store = new Store({
   selected: null,
   past: [],
   future: [],
+  finding: null,
   camera: { focal: 320 },
   options: {},
   busy: "Loading",

@@ -25,3 +25,9 @@ export function ending(report: Report): string {
       return `Paused ${after}.`;
   }
 }
+
+/** What a look for curves came to. */
+export function findingOf(curves: number): string {
+  if (curves === 0) return "One motion explains both frames: no curve is needed.";
+  return curves === 1 ? "1 curve found." : `${curves} curves found.`;
+}

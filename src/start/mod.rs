@@ -1,7 +1,16 @@
-//! A start for the regions' motions, from where small patches go.
+//! A start: curves where something moves by itself, and motions, from where small patches go.
 
+mod automatic;
+mod bodies;
 mod consensus;
+mod lattice;
+mod outline;
 mod patches;
+mod rigid;
+mod sight;
+mod surface;
+mod surfaces;
 
+pub use automatic::automatic;
 pub use consensus::{dominant, inside};
 pub use patches::{Patch, patches};

@@ -13,6 +13,7 @@ mod mesh;
 mod panic;
 mod scene;
 mod solver;
+mod start;
 
 pub use baseline::{Baseline, horn_schunck};
 pub use catalogue::{limits, option_catalogue, preset_catalogue, scene_catalogue, view_catalogue};
@@ -22,6 +23,7 @@ pub use mesh::Mesh;
 pub use panic::{panic_for_test, panic_message};
 pub use scene::Scene;
 pub use solver::Solver;
+pub use start::find_curves;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;

@@ -260,7 +260,7 @@ impl Solver {
     }
 }
 
-fn camera_of(pair: &FramePair, json: &str) -> Result<Camera, Error> {
+pub(super) fn camera_of(pair: &FramePair, json: &str) -> Result<Camera, Error> {
     let given: CameraJson = read("camera", json)?;
     let mut camera = Camera::centred(given.focal, pair.width(), pair.height())?;
     camera.cx = given.cx.unwrap_or(camera.cx);

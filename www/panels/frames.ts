@@ -99,7 +99,7 @@ function explain(state: Readonly<State>, own: boolean): string {
     return `The ${missing} frame is still missing. Until it is there, the stage keeps ${state.title || "what it shows"}.`;
   }
   return inUse(state)
-    ? "These are your frames. Draw a curve round each thing that moves by itself, then run."
+    ? "These are your frames. Draw or find a curve on each thing that moves by itself, then run."
     : `These two are not in use; the stage keeps ${state.title}.`;
 }
 

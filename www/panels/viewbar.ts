@@ -1,6 +1,6 @@
 /** Which view, what it lets one choose, which tool, which of the two frames. */
 
-import { redo, remove, undo } from "../curves";
+import { find, redo, remove, undo } from "../curves";
 import { byId, make } from "../dom";
 import { number } from "../format";
 import { look } from "../session";
@@ -10,6 +10,12 @@ import { available, viewOf, type Setting } from "../views";
 export function mountViewbar(): void {
   store.watch(({ catalogues, truth }) => [catalogues, truth], buildViews);
   store.watch(({ view, catalogues }) => [view, catalogues], showView);
+  store.watch(
+    ({ view, finding }) => [view, finding],
+    ({ view, finding }) => {
+      byId("hint").textContent = (view === "curves" && finding) || viewOf(view).hint;
+    },
+  );
   store.watch(
     ({ view, viewParams }) => [view, viewParams],
     () => void look(),
@@ -33,7 +39,6 @@ function showView(state: Readonly<State>): void {
   const view = viewOf(state.view);
   const radio = document.getElementById(`view-${view.id}`) as HTMLInputElement | null;
   if (radio) radio.checked = true;
-  byId("hint").textContent = view.hint;
   byId("stage").dataset["view"] = view.id;
   const editable = view.id === "curves";
   byId("tools").hidden = !editable;
@@ -78,6 +83,7 @@ function mountTools(): void {
   for (const radio of radios) {
     radio.addEventListener("change", () => store.update({ tool: radio.value as Tool }));
   }
+  byId("find").addEventListener("click", () => void find());
   byId("undo").addEventListener("click", undo);
   byId("redo").addEventListener("click", redo);
   byId("delete").addEventListener("click", () => {
@@ -91,6 +97,12 @@ function mountTools(): void {
       byId<HTMLButtonElement>("undo").disabled = past.length === 0;
       byId<HTMLButtonElement>("redo").disabled = future.length === 0;
       byId<HTMLButtonElement>("delete").disabled = selected === null;
+    },
+  );
+  store.watch(
+    ({ frames, busy, running }) => [frames, busy, running],
+    ({ frames, busy, running }) => {
+      byId<HTMLButtonElement>("find").disabled = !frames || busy !== null || running;
     },
   );
 }

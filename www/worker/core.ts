@@ -10,6 +10,7 @@ import init, {
 import type { Catalogues } from "./protocol";
 
 export {
+  findCurves,
   Frame,
   hornSchunck,
   panicMessage,

@@ -5,8 +5,17 @@
  * opened or configured is built anew before the old is let go, so an error leaves things as they were.
  */
 
-import { Frame, hornSchunck, Scene, Solver, type Baseline, type Picture } from "./core";
+import {
+  findCurves,
+  Frame,
+  hornSchunck,
+  Scene,
+  Solver,
+  type Baseline,
+  type Picture,
+} from "./core";
 import type {
+  Camera,
   Contour,
   MeshData,
   Opened,
@@ -16,6 +25,7 @@ import type {
   ResultFile,
   ScoreTable,
   Setup,
+  Shape,
   Source,
   Status,
   Whose,
@@ -92,6 +102,12 @@ export class Engine {
       this.setup = setup;
     }
     return options || shapes;
+  }
+
+  /** Curves to start from, where something moves by itself. */
+  find(camera: Camera): Shape[] {
+    const { first, second } = this.present().owned;
+    return JSON.parse(findCurves(first, second, JSON.stringify(camera))) as Shape[];
   }
 
   step(part: Part): Status {

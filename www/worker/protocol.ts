@@ -229,6 +229,8 @@ export interface Service {
   preview(file: FrameFile): Promise<{ width: number; height: number; picture: ImageBitmap }>;
   /** Opens a pair; on any error the one open before stays. `keep` overrides the source's own setup. */
   open(source: Source, keep: Setup | null): Promise<Opened>;
+  /** Curves to start from; none where one motion explains both frames. The solver stays as it is. */
+  find(camera: Camera): Promise<Shape[]>;
   configure(setup: Setup): Promise<void>;
   look(wanted: Wanted): Promise<void>;
   /** Runs on, or afresh when it had come to an end. */

@@ -170,6 +170,8 @@ const service: Service = {
       return Comlink.transfer(opened, opened.frames);
     }),
 
+  find: (camera) => guard(() => engine.find(camera)),
+
   configure: (setup) =>
     guard(() => {
       configure(setup);

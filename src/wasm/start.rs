@@ -1,0 +1,18 @@
+//! Curves to start from, found in the frames.
+
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use super::solver::camera_of;
+use super::{Frame, write};
+use crate::error::Error;
+use crate::frames::FramePair;
+use crate::start;
+
+/// A polygon roughly on each thing that moves by itself, the largest first and four at most, as a
+/// solver takes them; `[]` where one motion explains both frames. `camera` is that of a solver.
+#[wasm_bindgen(js_name = findCurves)]
+pub fn find_curves(first: &Frame, second: &Frame, camera: &str) -> Result<String, Error> {
+    let pair = FramePair::new(first.0.clone(), second.0.clone())?;
+    let camera = camera_of(&pair, camera)?;
+    Ok(write(&start::automatic(&pair, &camera)))
+}
