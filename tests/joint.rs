@@ -4,11 +4,11 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use glam::DVec3;
-use relievo::depth::FieldPrior;
+use relievo::depth::{Bends, FieldPrior};
 use relievo::motion::{Blocks, Candidate, JointStep, Kind, held};
 use relievo::options::Diffusion;
 use relievo::warp::{Linearisation, RESIDUAL, Scale};
-use relievo::{Camera, Grid, RigidMotion};
+use relievo::{Camera, Grid, RigidMotion, Window};
 
 const W: usize = 72;
 const H: usize = 56;
@@ -50,6 +50,7 @@ fn constraints(motion: &RigidMotion) -> Linearisation {
         }
     }
     Linearisation {
+        window: Window::whole(W, H),
         rows,
         gradient,
         flow: Grid::new(W, H, [0.0; 2]),
@@ -171,11 +172,12 @@ fn refine(
         diffusion: Diffusion::Isotropic,
         strength: 0.01,
         epsilon: 0.01,
+        relief: 0.0,
     };
     for _ in 0..steps {
-        let line = scale.linearise(&motion, &rho);
+        let line = scale.linearise(&motion, &rho, scale.whole());
         let weight = line.inside.map(f32::from);
-        let level = rho.map(|r| r - 1.0);
+        let level = Bends::of(&rho);
         let edges = prior.edges(&level);
         let data = line.rows.data().iter().zip(weight.data());
         let data = data.map(|(row, w)| w * row[0] * row[0]).collect();

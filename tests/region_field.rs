@@ -4,7 +4,7 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::Grid;
-use relievo::depth::{FieldPrior, confidence, fitted_plane};
+use relievo::depth::{Bends, FieldPrior, Plane, confidence};
 use relievo::options::Diffusion;
 
 const W: usize = 13;
@@ -24,6 +24,7 @@ fn prior(diffusion: Diffusion) -> FieldPrior {
         diffusion,
         strength: 0.3,
         epsilon: 0.5,
+        relief: 0.0,
     }
 }
 
@@ -35,13 +36,13 @@ fn dot(a: &Grid<f32>, b: &Grid<f32>) -> f64 {
 #[test]
 fn the_pull_is_down_the_slope_of_the_energy() {
     let field = rough();
-    let edges = prior(Diffusion::Isotropic).edges(&field);
-    let pull = edges.pull(&field);
+    let edges = prior(Diffusion::Isotropic).edges(&Bends::of(&field));
+    let pull = edges.pull(&Bends::of(&field));
     for at in [(0, 0), (W - 1, 0), (0, H - 1), (W - 1, H - 1), (5, 4)] {
         let energy = |by: f32| {
             let mut moved = field.clone();
             moved[at] += by;
-            edges.energy(&moved)
+            edges.energy(&Bends::of(&moved))
         };
         let slope = (energy(0.1) - energy(-0.1)) / 0.2;
         let half = -0.5 * slope;
@@ -59,10 +60,10 @@ fn the_pull_is_down_the_slope_of_the_energy() {
 fn energy_pull_and_system_are_one_operator() {
     for diffusion in [Diffusion::Isotropic, Diffusion::Anisotropic] {
         let field = rough();
-        let edges = prior(diffusion).edges(&field);
-        let pull = edges.pull(&field);
+        let edges = prior(diffusion).edges(&Bends::of(&field));
+        let pull = edges.pull(&Bends::of(&field));
         // ρᵀLρ = −ρ·pull(ρ).
-        let energy = edges.energy(&field);
+        let energy = edges.energy(&Bends::of(&field));
         assert!((energy + dot(&field, &pull)).abs() < 1e-4 * energy);
         // With d = 1: (1 + L) ρ = ρ − pull(ρ).
         let system = edges.system(W, H, vec![1.0; W * H]);
@@ -78,7 +79,7 @@ fn energy_pull_and_system_are_one_operator() {
             let mut spike = Grid::new(W, H, 0.0f32);
             spike[at] = 1.0;
             let around = edges.around(at.1 * W + at.0, W);
-            assert!((edges.energy(&spike) - around).abs() < 1e-5 * around);
+            assert!((edges.energy(&Bends::of(&spike)) - around).abs() < 1e-5 * around);
         }
     }
 }
@@ -89,13 +90,19 @@ fn an_edge_of_depth_is_smoothed_less_where_edges_are_kept() {
     let at_step = |diffusion| {
         let mut spike = Grid::new(W, H, 0.0f32);
         spike[(5, 4)] = 1.0;
-        prior(diffusion).edges(&step).energy(&spike)
+        prior(diffusion)
+            .edges(&Bends::of(&step))
+            .energy(&Bends::of(&spike))
     };
     assert!(at_step(Diffusion::Anisotropic) < 0.6 * at_step(Diffusion::Isotropic));
     // Far below ε both are the same.
     let faint = rough().map(|r| 1e-4 * r);
     let (a, b) = [Diffusion::Anisotropic, Diffusion::Isotropic]
-        .map(|d| prior(d).edges(&faint).energy(&faint))
+        .map(|d| {
+            prior(d)
+                .edges(&Bends::of(&faint))
+                .energy(&Bends::of(&faint))
+        })
         .into();
     assert!((a - b).abs() < 1e-5 * b);
 }
@@ -109,23 +116,25 @@ fn a_plane_costs_nothing() {
     let spoilt = Grid::from_fn(W, H, |x, y| {
         plane[(x, y)] + if x < 5 && y < 4 { 0.0 } else { noise(x, y) }
     });
-    let fitted = fitted_plane(&spoilt, &corner);
-    for (a, b) in fitted.data().iter().zip(plane.data()) {
+    let fitted = Plane::fit(&spoilt, &corner);
+    let heights = Grid::from_fn(W, H, |x, y| fitted.at(x as f64, y as f64) as f32);
+    for (a, b) in heights.data().iter().zip(plane.data()) {
         assert!((a - b).abs() < 1e-4, "{a} for {b}");
     }
-    let mut departure = plane.clone();
-    for (d, p) in departure.data_mut().iter_mut().zip(fitted.data()) {
-        *d -= p;
-    }
+    let [right, down] = fitted.slope();
+    assert!((right + 0.04).abs() < 1e-5 && (down - 0.07).abs() < 1e-5);
+    let nothing = Grid::new(W, H, 0.0f32);
+    let departure = Bends::about_slope(&plane, &nothing, &fitted, 3.0);
+    let plane_steps = Bends::of(&plane);
     for diffusion in [Diffusion::Isotropic, Diffusion::Anisotropic] {
         let prior = prior(diffusion);
         let edges = prior.edges(&departure);
-        let steep = prior.edges(&plane).energy(&plane);
+        let steep = prior.edges(&plane_steps).energy(&plane_steps);
         assert!(edges.energy(&departure) < 1e-6 * steep);
     }
     // Nothing known: the depth that every region starts from.
-    let nowhere = fitted_plane(&plane, &Grid::new(W, H, 0.0));
-    assert!(nowhere.data().iter().all(|r| *r == 1.0));
+    let nowhere = Plane::fit(&plane, &nothing);
+    assert!(nowhere.slope() == [0.0; 2] && nowhere.at(3.0, 5.0) == 1.0);
 }
 
 #[test]

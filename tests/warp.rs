@@ -58,7 +58,7 @@ fn interior(line: &Linearisation) -> impl Iterator<Item = (usize, usize)> {
 fn true_motion_and_depth_leave_no_residual() {
     let scale = exact();
     let (motion, rho) = (motion(), rho());
-    let line = scale.linearise(&motion, &rho);
+    let line = scale.linearise(&motion, &rho, scale.whole());
     for (x, y) in interior(&line) {
         let at = (x, y);
         assert!(line.rows[at][RESIDUAL].abs() < 0.05);
@@ -69,7 +69,7 @@ fn true_motion_and_depth_leave_no_residual() {
         assert!((fu - u).abs() < 1e-4 && (fv - v).abs() < 1e-4);
     }
     // And it is not that nothing could leave one.
-    let still = scale.linearise(&RigidMotion::default(), &rho);
+    let still = scale.linearise(&RigidMotion::default(), &rho, scale.whole());
     let sum: f32 = still.rows.data().iter().map(|r| r[RESIDUAL].abs()).sum();
     assert!(sum / (W * H) as f32 > 5.0);
 }
@@ -96,7 +96,7 @@ fn changed(motion: &RigidMotion, j: usize, step: f64) -> RigidMotion {
 fn rows_are_the_derivatives_of_the_residual() {
     let mut scale = exact();
     let (motion, rho) = (motion(), rho());
-    let warped = scale.linearise(&motion, &rho).flow;
+    let warped = scale.linearise(&motion, &rho, scale.whole()).flow;
     // With frames whose gradients agree where they see the same point, the rows are exact.
     for y in 0..H {
         for x in 0..W {
@@ -108,13 +108,13 @@ fn rows_are_the_derivatives_of_the_residual() {
             scale.first_gradient.1[(x, y)] = both.1;
         }
     }
-    let line = scale.linearise(&motion, &rho);
+    let line = scale.linearise(&motion, &rho, scale.whole());
     // Steps that move the image by about a tenth of a pixel.
     let step = 0.1 / scale.camera.focal;
     for column in 0..7 {
         let moved = |by: f64| match column {
-            0 => scale.linearise(&motion, &rho.map(|r| r + (10.0 * by) as f32)),
-            j => scale.linearise(&changed(&motion, j - 1, by), &rho),
+            0 => scale.linearise(&motion, &rho.map(|r| r + (10.0 * by) as f32), scale.whole()),
+            j => scale.linearise(&changed(&motion, j - 1, by), &rho, scale.whole()),
         };
         let (forth, back) = (moved(step), moved(-step));
         let span = 2.0 * step * if column == 0 { 10.0 } else { 1.0 };
@@ -140,7 +140,7 @@ fn what_leaves_the_frame_says_nothing() {
         rotation: DVec3::ZERO,
     };
     // f T / Z = 30 pixels to the right.
-    let line = scale.linearise(&right, &Grid::new(W, H, 1.0));
+    let line = scale.linearise(&right, &Grid::new(W, H, 1.0), scale.whole());
     for y in 0..H {
         for x in 0..W {
             let stays = x + 30 < W;
@@ -153,7 +153,7 @@ fn what_leaves_the_frame_says_nothing() {
         translation: DVec3::new(0.0, 0.0, -2.0),
         rotation: DVec3::ZERO,
     };
-    let line = scale.linearise(&past, &Grid::new(W, H, 1.0));
+    let line = scale.linearise(&past, &Grid::new(W, H, 1.0), scale.whole());
     assert!(line.inside.data().iter().all(|inside| !inside));
     assert!(line.rows.data().iter().all(|row| *row == [0.0; 8]));
 }
