@@ -108,14 +108,14 @@ fn mean_xi(gradient_sigma: Option<f64>, second: impl Fn(f64, f64) -> f64) -> f64
 
 #[test]
 fn gradients_tell_another_texture_from_another_light() {
-    let light = |x: f64, y: f64| texture(x, y) + 14.0 + 0.1 * x - 0.08 * y;
+    let light = |x: f64, y: f64| texture(x, y) + 30.0 + 0.1 * x - 0.08 * y;
     let moved = |x: f64, y: f64| texture(x + 2.3, y - 1.1);
     let [without, with] =
         [None, Some(1.0)].map(|sigma| (mean_xi(sigma, light), mean_xi(sigma, moved)));
     // By brightness alone the light refutes as well as the texture does.
     assert!(without.0 > 0.5 * without.1, "{without:?}");
     assert!(with.0 < 0.6 * without.0, "{with:?} against {without:?}");
-    assert!(with.1 > 0.9 * without.1, "{with:?} against {without:?}");
+    assert!(with.1 > 0.8 * without.1, "{with:?} against {without:?}");
     assert!(with.0 < 0.7 * with.1, "{with:?}");
     // Nothing changed, nothing to pay.
     assert!(mean_xi(Some(1.0), texture) < 1e-6 * with.1);

@@ -137,6 +137,52 @@ fn a_plane_costs_nothing() {
     assert!(nowhere.slope() == [0.0; 2] && nowhere.at(3.0, 5.0) == 1.0);
 }
 
+/// What smoothing charges for a field over 60 × 48 pixels, after its slope around and without.
+fn charged(rho: &Grid<f32>) -> (f64, f64) {
+    let owned = rho.map(|_| 1.0);
+    let plane = Plane::fit(rho, &owned);
+    let prior = prior(Diffusion::Isotropic);
+    let cost = |bends: &Bends| prior.edges(bends).energy(bends);
+    let about = Bends::about_slope(rho, &owned, &plane, 5.0);
+    (cost(&about), cost(&Bends::of(rho)))
+}
+
+#[test]
+fn slopes_that_change_slowly_cost_next_to_nothing_and_steps_do() {
+    let field = |f: &dyn Fn(f32, f32) -> f32| Grid::from_fn(60, 48, |x, y| f(x as f32, y as f32));
+    let (cost, of_all) = charged(&field(&|x, y| 1.3 - 0.004 * x + 0.007 * y));
+    assert!(cost < 1e-6 * of_all, "a plane costs {cost} of {of_all}");
+    let (cost, of_all) = charged(&field(&|x, y| {
+        1.0 + 0.2 * (x / 18.0).sin() + 0.15 * (y / 20.0 + 0.4).cos()
+    }));
+    assert!(cost < 0.05 * of_all, "a wave costs {cost} of {of_all}");
+    let (cost, of_all) = charged(&field(&|x, _| 1.0 + 0.01 * (x - 30.0).abs()));
+    assert!(cost < 0.2 * of_all, "a fold costs {cost} of {of_all}");
+    let (cost, of_all) = charged(&field(&|x, _| if x < 30.0 { 1.0 } else { 1.3 }));
+    assert!(cost > 0.6 * of_all, "a step costs {cost} of {of_all}");
+}
+
+#[test]
+fn where_nothing_is_known_the_plane_is_expected() {
+    let plane = |x: usize, y: usize| 1.0 + 0.003 * x as f32 - 0.002 * y as f32;
+    let known = |x: usize| x < 20;
+    let rho = Grid::from_fn(60, 48, |x, y| {
+        plane(x, y)
+            + if known(x) {
+                0.1 * (x as f32 / 4.0).sin()
+            } else {
+                0.0
+            }
+    });
+    let owned = Grid::from_fn(60, 48, |x, _| f32::from(known(x)));
+    let far = Grid::from_fn(60, 48, |x, _| f32::from(x > 45));
+    let bends = Bends::about_slope(&rho, &owned, &Plane::fit(&rho, &far), 4.0);
+    let edges = prior(Diffusion::Isotropic).edges(&bends);
+    let pull = edges.pull(&bends);
+    assert!((48..60).all(|x| pull[(x, 24)].abs() < 1e-5));
+    assert!((4..16).any(|x| pull[(x, 24)].abs() > 1e-3));
+}
+
 #[test]
 fn confidence_grows_with_what_shows() {
     let of = |slope: f32, sigma: f64| confidence(&Grid::new(31, 31, slope), sigma)[(15, 15)];

@@ -1,0 +1,98 @@
+//! Changes of brightness between two frames as a whole.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use relievo::frames::Lighting;
+use relievo::warp::Scale;
+use relievo::{Grid, scene};
+
+const W: usize = 80;
+const H: usize = 60;
+
+fn picture() -> Grid<f32> {
+    Grid::from_fn(W, H, |x, y| {
+        let (x, y) = (x as f32, y as f32);
+        110.0 + 50.0 * (0.31 * x + 0.1 * y).sin() + 35.0 * (0.23 * y - 0.07 * x).cos()
+    })
+}
+
+fn lit(picture: &Grid<f32>, light: Lighting) -> Grid<f32> {
+    picture.map(|v| light.gain as f32 * v + light.offset as f32)
+}
+
+fn light(gain: f64, offset: f64) -> Lighting {
+    Lighting { gain, offset }
+}
+
+#[test]
+fn gain_and_offset_are_found() {
+    let first = picture();
+    for (gain, offset) in [(0.8, 10.0), (1.3, -20.0), (1.0, 12.0), (0.5, 0.0)] {
+        let found = Lighting::between(&first, &lit(&first, light(gain, offset)));
+        assert!((found.gain - gain).abs() < 1e-4, "{found:?}");
+        assert!((found.offset - offset).abs() < 1e-2, "{found:?}");
+    }
+}
+
+#[test]
+fn it_does_not_matter_where_brightness_is() {
+    let first = picture();
+    let mirrored = Grid::from_fn(W, H, |x, y| first[(W - 1 - x, H - 1 - y)]);
+    let change = light(0.8, 10.0);
+    let found = Lighting::between(&first, &lit(&mirrored, change));
+    assert_eq!(found, Lighting::between(&first, &lit(&first, change)));
+}
+
+#[test]
+fn what_only_moved_is_lit_as_before() {
+    for name in ["squares", "blocks", "head", "carousel"] {
+        let [first, second] = scene::render(name, 160, 120).unwrap().frames;
+        let found = Lighting::between(&first.grey, &second.grey);
+        assert_eq!(found, Lighting::default(), "{name}");
+        let darker = lit(&second.grey, light(0.8, 10.0));
+        let found = Lighting::between(&first.grey, &darker);
+        assert!((found.gain - 0.8).abs() < 0.04, "{name}: {found:?}");
+        assert!((found.offset - 10.0).abs() < 5.0, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn a_blank_frame_tells_nothing() {
+    let blank = Grid::new(W, H, 90.0);
+    assert_eq!(Lighting::between(&blank, &picture()), Lighting::default());
+    assert_eq!(Lighting::between(&picture(), &blank), Lighting::default());
+}
+
+#[test]
+fn one_change_then_another_is_a_change() {
+    let (a, b) = (light(0.8, 10.0), light(1.5, -7.0));
+    let twice = lit(&lit(&picture(), a), b);
+    let once = lit(&picture(), a.then(b));
+    for (twice, once) in twice.data().iter().zip(once.data()) {
+        assert!((twice - once).abs() < 1e-3);
+    }
+    assert_eq!(a.then(Lighting::default()), a);
+    assert_eq!(Lighting::default().then(a), a);
+    assert_ne!(a.then(b), b.then(a));
+}
+
+#[test]
+fn a_scale_relit_is_that_of_frames_in_that_light() {
+    let camera = relievo::Camera::centred(60.0, W, H).unwrap();
+    let change = light(0.8, 10.0);
+    let second = picture().map(|v| 0.9 * v);
+    let mut relit = Scale::new(camera, picture(), second.clone());
+    relit.relight(change);
+    let other = Scale::new(camera, lit(&picture(), change), second);
+    let same = |a: &Grid<f32>, b: &Grid<f32>| {
+        let mut pairs = a.data().iter().zip(b.data());
+        pairs.all(|(a, b)| (a - b).abs() < 1e-3 * (1.0 + b.abs()))
+    };
+    assert!(same(&relit.first, &other.first));
+    assert!(same(&relit.first_gradient.0, &other.first_gradient.0));
+    assert!(same(&relit.first_gradient.1, &other.first_gradient.1));
+    assert!(same(&relit.bend, &other.bend));
+    assert_eq!(relit.second, other.second);
+    assert_eq!(relit.second_gradient, other.second_gradient);
+}

@@ -1,0 +1,75 @@
+//! What the second preset adds to where regions are: kinds of motion, near and far, and other light.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use relievo::motion::Kind;
+use relievo::options::Preset;
+use relievo::scene::{self, Sequence};
+use relievo::score::compare;
+use relievo::{Frame, FramePair, Grid, Options, Solver, Status};
+
+fn best() -> Options {
+    Options::preset(Preset::Best)
+}
+
+/// A solver at its end, the second frame's brightness having been changed by `light`.
+fn solved(sequence: &Sequence, options: Options, light: impl Fn(f32) -> f32) -> Solver {
+    let [first, second] = [0, 1].map(|i| sequence.frames[i].grey.clone());
+    let [first, second] = [first, second.map(light)].map(|grey| Frame::from_grey(grey).unwrap());
+    let pair = FramePair::new(first, second).unwrap();
+    let camera = sequence.truth.camera;
+    let mut solver = Solver::new(pair, camera, &sequence.curves, options).unwrap();
+    while solver.step() == Status::Running {}
+    solver
+}
+
+fn differing(a: &Grid<u8>, b: &Grid<u8>) -> f64 {
+    let pairs = a.data().iter().zip(b.data());
+    pairs.filter(|(a, b)| a != b).count() as f64 / a.len() as f64
+}
+
+#[test]
+fn a_floor_is_still_and_blocks_that_slide_do_not_turn() {
+    let sequence = scene::render("blocks", 160, 120).unwrap();
+    let report = solved(&sequence, best(), |v| v).report();
+    let kinds: Vec<Kind> = report.regions.iter().map(|r| r.kind).collect();
+    let expected = [Kind::Still, Kind::Translation, Kind::Translation];
+    assert_eq!(kinds, expected);
+    // Both hide floor; the floor hides nothing.
+    assert!(report.regions[0].in_front_of.is_empty());
+    assert!(report.regions[1].in_front_of.contains(&0));
+    assert!(report.regions[2].in_front_of.contains(&0));
+}
+
+#[test]
+fn another_light_leaves_regions_where_they_are() {
+    let sequence = scene::render("blocks", 128, 96).unwrap();
+    let darker = |v: f32| 0.8 * v + 10.0;
+    let labels = |options: Options, light: fn(f32) -> f32| {
+        solved(&sequence, options, light).interpretation().labels
+    };
+    let plain = labels(best(), |v| v);
+    let found = differing(&plain, &labels(best(), darker));
+    let blind = Options {
+        lighting: false,
+        ..best()
+    };
+    let without = differing(&plain, &labels(blind, darker));
+    assert!(found < 0.02, "{found} of all labels differ");
+    assert!(
+        without > 2.0 * found && without > 0.03,
+        "{without} without, {found} with"
+    );
+}
+
+#[test]
+fn turning_bodies_are_not_taken_for_their_mirror_images() {
+    let sequence = scene::render("carousel", 272, 204).unwrap();
+    let found = solved(&sequence, best(), |v| v).interpretation();
+    let scores = compare(&found, &sequence.truth).unwrap();
+    for (k, angle) in scores.translation_angle.iter().enumerate().skip(1) {
+        let angle = angle.unwrap();
+        assert!(angle < 6.0, "T of region {k} is off by {angle}°");
+    }
+}
