@@ -59,8 +59,8 @@ pub(super) struct Layers {
     regions: Vec<Region>,
     noise: Noise,
     weights: Weights,
-    /// The regions that each region hides part of; empty while that is not asked.
-    behind: Vec<Vec<usize>>,
+    /// What the regions cover in the second frame, once hidden pixels are excused.
+    cover: Option<Cover>,
 }
 
 impl Layers {
@@ -95,7 +95,7 @@ impl Layers {
             labels: Grid::new(width, height, 0),
             unclaimed: Grid::new(width, height, false),
             regions: vec![Region::new(width, height); regions],
-            behind: Vec::new(),
+            cover: None,
             weights: Weights::of_layers(noise.sigma, false, options),
             noise,
             scales,
@@ -246,21 +246,24 @@ impl Layers {
         }
     }
 
-    /// ξ of every region.
+    /// ξ of every region, nobody being excused.
+    fn residuals(&self, lines: &[Linearisation], options: &Options) -> Vec<Grid<f32>> {
+        rivalry::residuals(lines, self.here(), &self.measure(options))
+    }
+
+    /// What regions compete with, from their ξ.
     fn competition(
         &self,
+        mut xi: Vec<Grid<f32>>,
         lines: &[Linearisation],
         options: &Options,
-    ) -> (Vec<Grid<f32>>, Option<Cover>) {
+    ) -> Vec<Grid<f32>> {
         let measure = self.measure(options);
-        let mut xi = rivalry::residuals(lines, self.here(), &measure);
-        let cover = (options.occlusion && self.schedule.excuses())
-            .then(|| rivalry::cover(lines, &xi, &self.labels, &measure));
-        if let Some(cover) = &cover {
+        if let Some(cover) = &self.cover {
             rivalry::excuse_hidden(&mut xi, lines, cover, &measure);
         }
         rivalry::charge_distance(&mut xi, &self.phi, &measure);
-        (xi, cover)
+        xi
     }
 
     fn measure_lighting(&mut self, options: &Options) {
@@ -356,8 +359,14 @@ impl Approach for Layers {
         if self.phi.is_empty() {
             return;
         }
-        let (xi, cover) = self.competition(&lines, options);
-        self.behind = cover.map_or_else(Vec::new, |cover| cover.behind());
+        let xi = self.residuals(&lines, options);
+        if !(options.occlusion && self.schedule.excuses()) {
+            self.cover = None;
+        } else if self.cover.is_none() || !self.schedule.holds_cover() {
+            let measure = self.measure(options);
+            self.cover = Some(rivalry::cover(&lines, &xi, &self.labels, &measure));
+        }
+        let xi = self.competition(xi, &lines, options);
         if self.schedule.settled() {
             curves::evolve(&mut self.phi, &xi, self.weights.lambda, options.curve_steps);
         } else {
@@ -400,7 +409,7 @@ impl Approach for Layers {
         self.regions
             .resize(level_sets.len() + 1, Region::new(width, height));
         self.noise.regions.resize(level_sets.len() + 1, 0.0);
-        self.behind.clear();
+        self.cover = None;
         self.unclaimed.data_mut().fill(false);
         self.place_curves(level_sets);
         self.propose_motions(known);
@@ -411,7 +420,7 @@ impl Approach for Layers {
             return Energy::default();
         }
         let lines = self.linearisations();
-        let (xi, _) = self.competition(&lines, options);
+        let xi = self.competition(self.residuals(&lines, options), &lines, options);
         let owners = self.labels.data().iter().enumerate();
         let data = owners
             .map(|(i, &k)| f64::from(xi[usize::from(k)].data()[i]))
@@ -460,7 +469,7 @@ impl Approach for Layers {
     }
 
     fn behind(&self) -> Vec<Vec<usize>> {
-        self.behind.clone()
+        self.cover.as_ref().map_or_else(Vec::new, Cover::behind)
     }
 
     fn weights(&self) -> Weights {

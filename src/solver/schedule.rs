@@ -121,6 +121,11 @@ impl Schedule {
         self.at_least(EXCUSING)
     }
 
+    /// Whether what covers what is known by now: curves and cover would follow each other for ever.
+    pub fn holds_cover(&self) -> bool {
+        self.at_least(CHOOSING_AGAIN + 2)
+    }
+
     /// Whether the change of light is to be measured after this pass.
     pub fn relights(&self) -> bool {
         self.pass == RELIGHTING

@@ -136,10 +136,7 @@ fn joined(sights: &Sights, surfaces: &Surfaces, members: &[usize]) -> f64 {
         .zip(&prices)
         .map(|(&k, price)| if terms(k) <= 2 { *price } else { 3.0 * price })
         .sum();
-    let witnesses: Vec<Witness> = patches
-        .iter()
-        .map(|p| p.witness.for_many(stride))
-        .collect();
+    let witnesses: Vec<Witness> = patches.iter().map(|p| p.witness.for_many(stride)).collect();
     let rigid = [false, true].into_iter().filter_map(|turns| {
         let rigid = Rigid::search(&witnesses, turns, sights.spread)?;
         let excess: f64 = patches
@@ -173,8 +170,8 @@ fn one_surface(
         let own = surfaces.all[members[patch.member]].flow(ray);
         let [excess, difference2, weight] = &mut by_member[patch.member];
         *excess += sights.cost(patch.index, flow) - patch.own;
-        *difference2 += patch.witness.weight
-            * ((flow[0] - own[0]).powi(2) + (flow[1] - own[1]).powi(2));
+        *difference2 +=
+            patch.witness.weight * ((flow[0] - own[0]).powi(2) + (flow[1] - own[1]).powi(2));
         *weight += patch.witness.weight;
     }
     let each = by_member.into_iter().map(|[excess, difference2, weight]| {

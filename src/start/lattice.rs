@@ -92,9 +92,7 @@ impl Lattice {
             }
             sum
         };
-        let across = Grid::from_fn(width, height, |x, y| {
-            sum(x, width, &|q| field[(q, y)])
-        });
+        let across = Grid::from_fn(width, height, |x, y| sum(x, width, &|q| field[(q, y)]));
         let down = |&(x, y): &(usize, usize)| {
             let [value, count] = sum(y, height, &|q| across[(x, q)]);
             value / count
@@ -184,7 +182,11 @@ impl Lattice {
         }
         let read = |inset: &Grid<f32>, x: isize, y: isize| {
             let within = x >= 0 && y >= 0 && x < width as isize && y < height as isize;
-            if within { inset[(x as usize, y as usize)] } else { FAR }
+            if within {
+                inset[(x as usize, y as usize)]
+            } else {
+                FAR
+            }
         };
         for forwards in [true, false] {
             let s: isize = if forwards { -1 } else { 1 };

@@ -51,9 +51,10 @@ pub(super) fn outlines(
     contours(&level_set, 1)
         .into_iter()
         .map(|contour| {
-            let points = contour.points.iter().map(|&[x, y]| {
-                [grow(x, small.0, width), grow(y, small.1, height)]
-            });
+            let points = contour
+                .points
+                .iter()
+                .map(|&[x, y]| [grow(x, small.0, width), grow(y, small.1, height)]);
             let corners = simplified(&points.collect::<Vec<_>>(), off);
             let share = area(&corners) / whole;
             Outline { corners, share }

@@ -116,9 +116,7 @@ impl Rigid {
     pub fn flow(&self, witness: &Witness) -> [f64; 2] {
         let t = witness.along(self.direction);
         let b = witness.turning().map(|row| row.dot(self.turn));
-        let z = self
-            .depth(witness)
-            .clamp(self.depths[0], self.depths[1]);
+        let z = self.depth(witness).clamp(self.depths[0], self.depths[1]);
         [b[0] + z * t[0], b[1] + z * t[1]]
     }
 

@@ -99,8 +99,7 @@ impl Surfaces {
         for _ in 0..rounds {
             let refitted = (0..found.all.len()).filter_map(|k| {
                 let within = lattice.core(&found.patches(k));
-                (within.len() >= FEWEST)
-                    .then(|| Surface::best(sights, &within, Some(found.all[k])))
+                (within.len() >= FEWEST).then(|| Surface::best(sights, &within, Some(found.all[k])))
             });
             let next = Self::share_out(sights, lattice, refitted.collect());
             if next.all.is_empty() || next.energy >= found.energy {
