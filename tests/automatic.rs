@@ -1,0 +1,252 @@
+//! Curves that are found rather than drawn: as many as things move by themselves, and on them.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use glam::DVec3;
+use relievo::scene::{self, Sequence};
+use relievo::start::automatic;
+use relievo::{Camera, Frame, FramePair, Grid, Options, RigidMotion, Shape, Solver};
+
+fn pair(frames: [Frame; 2]) -> FramePair {
+    let [first, second] = frames;
+    FramePair::new(first, second).unwrap()
+}
+
+/// What is found in a sequence.
+fn found(sequence: &Sequence) -> Vec<Shape> {
+    automatic(&pair(sequence.frames.clone()), &sequence.truth.camera)
+}
+
+fn corners(shape: &Shape) -> &[[f64; 2]] {
+    match shape {
+        Shape::Polygon { points } => points,
+        Shape::Circle { .. } => panic!("found curves are polygons"),
+    }
+}
+
+fn mask(shape: &Shape, width: usize, height: usize) -> Grid<bool> {
+    Grid::from_fn(width, height, |x, y| {
+        shape.signed_distance(x as f64, y as f64) > 0.0
+    })
+}
+
+/// Intersection over union.
+fn overlap(a: &Grid<bool>, b: &Grid<bool>) -> f64 {
+    let both = |f: fn(bool, bool) -> bool| {
+        let pairs = a.data().iter().zip(b.data());
+        pairs.filter(|(a, b)| f(**a, **b)).count() as f64
+    };
+    both(|a, b| a && b) / both(|a, b| a || b)
+}
+
+fn area(mask: &Grid<bool>) -> usize {
+    mask.data().iter().filter(|inside| **inside).count()
+}
+
+/// That there is one curve for each body that moves by itself, and that each covers its body.
+fn one_for_each(sequence: &Sequence, least: f64) {
+    let labels = &sequence.truth.labels;
+    let (width, height) = (labels.width(), labels.height());
+    let curves: Vec<_> = found(sequence)
+        .iter()
+        .map(|shape| mask(shape, width, height))
+        .collect();
+    let bodies = sequence.truth.regions() - 1;
+    let name = &sequence.name;
+    assert_eq!(curves.len(), bodies, "{name}");
+    for body in 1..=bodies {
+        let seen = labels.map(|l| usize::from(l) == body);
+        let best = curves.iter().map(|curve| overlap(curve, &seen));
+        let best = best.fold(0.0, f64::max);
+        assert!(best > least, "{name}: body {body} is covered by {best}");
+    }
+    // The largest comes first.
+    assert!(curves.windows(2).all(|two| area(&two[0]) >= area(&two[1])));
+}
+
+#[test]
+fn what_moves_by_itself_is_found() {
+    for name in ["squares", "blocks", "figure", "head", "carousel"] {
+        one_for_each(&scene::render(name, 160, 120).unwrap(), 0.7);
+    }
+}
+
+#[test]
+fn noise_large_motion_and_a_moving_camera_are_withstood() {
+    one_for_each(
+        &scene::variant("blocks", 2004, 3.0, 4.0, 320, 240).unwrap(),
+        0.6,
+    );
+    one_for_each(
+        &scene::variant("carousel", 2007, 4.0, 12.0, 320, 240).unwrap(),
+        0.6,
+    );
+}
+
+#[test]
+fn scenery_at_all_depths_is_one_body() {
+    let flight = scene::render("flight", 240, 180).unwrap();
+    let depth = flight.truth.depth.data();
+    let near = depth.iter().copied().fold(f32::INFINITY, f32::min);
+    let far = depth.iter().copied().fold(0.0, f32::max);
+    assert!(far > 3.0 * near, "the hills are deep");
+    assert_eq!(found(&flight), []);
+}
+
+const W: usize = 160;
+const H: usize = 120;
+
+/// A texture with detail at several scales and without a period.
+fn texture(x: f64, y: f64) -> f64 {
+    120.0
+        + 22.0 * (0.11 * x + 0.05 * y + 2.0 * (0.043 * y).sin()).sin()
+        + 22.0 * (0.13 * y - 0.04 * x + 2.0 * (0.037 * x).cos()).cos()
+        + 14.0 * (0.5 * x - 0.37 * y + 3.0 * (0.05 * x).sin()).sin()
+        + 14.0 * (0.43 * y + 0.41 * x + 3.0 * (0.045 * y).cos()).cos()
+}
+
+/// A still texture on which a square of `half` a side around (x, y) moves by (u, v).
+fn square(x: f64, y: f64, half: f64, (u, v): (f64, f64)) -> FramePair {
+    let frame = |t: f64| {
+        let picture = Grid::from_fn(W, H, |px, py| {
+            let (px, py) = (px as f64, py as f64);
+            let (dx, dy) = (px - x - t * u, py - y - t * v);
+            let value = if dx.abs() < half && dy.abs() < half {
+                texture(dx + 400.0, dy + 300.0)
+            } else {
+                texture(px, py)
+            };
+            value as f32
+        });
+        Frame::from_grey(picture).unwrap()
+    };
+    pair([frame(0.0), frame(1.0)])
+}
+
+fn camera() -> Camera {
+    Camera::centred(160.0, W, H).unwrap()
+}
+
+#[test]
+fn a_lone_square_is_found_wherever_it_goes() {
+    for motion in [(1.5, 0.0), (-0.7, 1.1), (0.0, -4.0)] {
+        let curves = automatic(&square(70.0, 60.0, 20.0, motion), &camera());
+        assert_eq!(curves.len(), 1, "{motion:?}");
+        let true_square = Grid::from_fn(W, H, |x, y| {
+            (x as f64 - 70.0).abs() < 20.0 && (y as f64 - 60.0).abs() < 20.0
+        });
+        let overlap = overlap(&mask(&curves[0], W, H), &true_square);
+        assert!(overlap > 0.7, "{motion:?}: overlap {overlap}");
+    }
+}
+
+#[test]
+fn what_is_too_small_to_be_told_is_not_found() {
+    assert_eq!(
+        automatic(&square(70.0, 60.0, 5.0, (1.5, 0.0)), &camera()),
+        []
+    );
+}
+
+#[test]
+fn a_turn_of_the_camera_moves_nothing_by_itself() {
+    let still = |x: f64, y: f64| texture(x, y) as f32;
+    let first = Grid::from_fn(W, H, |x, y| still(x as f64, y as f64));
+    let back = RigidMotion {
+        translation: DVec3::ZERO,
+        rotation: -DVec3::new(0.01, 0.02, 0.03),
+    };
+    let second = Grid::from_fn(W, H, |x, y| {
+        let (x, y) = (x as f64, y as f64);
+        let (u, v) = camera().displacement(&back, x, y, 0.0).unwrap();
+        still(x + u, y + v)
+    });
+    let frames = [first, second].map(|grey| Frame::from_grey(grey).unwrap());
+    assert_eq!(automatic(&pair(frames), &camera()), []);
+}
+
+#[test]
+fn polygons_lie_in_the_frame_and_are_fit_to_start_from() {
+    // The bear stands on the frame's lower border.
+    let figure = scene::render("figure", 160, 120).unwrap();
+    let labels = &figure.truth.labels;
+    assert!(labels.row(119).contains(&1));
+    let curves = found(&figure);
+    for corners in curves.iter().map(corners) {
+        assert!((4..=60).contains(&corners.len()), "{}", corners.len());
+        for [x, y] in corners {
+            assert!((0.0..=159.0).contains(x) && (0.0..=119.0).contains(y));
+            let tenths = |value: f64| (10.0 * value - (10.0 * value).round()).abs() < 1e-6;
+            assert!(tenths(*x) && tenths(*y));
+        }
+        assert!(corners.iter().any(|[_, y]| *y == 119.0));
+    }
+    let frames = pair(figure.frames.clone());
+    let solver = Solver::new(frames, figure.truth.camera, &curves, Options::default());
+    assert_eq!(solver.unwrap().interpretation().regions(), 2);
+}
+
+#[test]
+fn larger_frames_give_the_same_curves_larger() {
+    let [small, large] = [(160, 120), (480, 360)].map(|(width, height)| {
+        let sequence = scene::render("squares", width, height).unwrap();
+        let curves = found(&sequence);
+        assert_eq!(curves.len(), 2);
+        // Seen at the smaller size.
+        let shrink = width as f64 / 160.0;
+        curves
+            .iter()
+            .map(|shape| {
+                Grid::from_fn(160, 120, |x, y| {
+                    let grow = |at: usize| (at as f64 + 0.5) * shrink - 0.5;
+                    shape.signed_distance(grow(x), grow(y)) > 0.0
+                })
+            })
+            .collect::<Vec<_>>()
+    });
+    for curve in &small {
+        let best = large.iter().map(|other| overlap(curve, other));
+        assert!(best.fold(0.0, f64::max) > 0.75);
+    }
+}
+
+#[test]
+fn a_mirrored_pair_gives_mirrored_curves() {
+    let sequence = scene::render("carousel", 160, 120).unwrap();
+    let mirrored = sequence.frames.clone().map(|frame| {
+        let grey = Grid::from_fn(160, 120, |x, y| frame.grey[(159 - x, y)]);
+        Frame::from_grey(grey).unwrap()
+    });
+    let curves = found(&sequence);
+    let others = automatic(&pair(mirrored), &sequence.truth.camera);
+    assert_eq!(others.len(), curves.len());
+    for curve in &curves {
+        let flipped = Grid::from_fn(160, 120, |x, y| {
+            curve.signed_distance((159 - x) as f64, y as f64) > 0.0
+        });
+        let best = others.iter().map(|o| overlap(&mask(o, 160, 120), &flipped));
+        assert!(best.fold(0.0, f64::max) > 0.8);
+    }
+}
+
+#[test]
+fn the_same_frames_give_the_same_curves() {
+    let sequence = scene::render("blocks", 160, 120).unwrap();
+    assert_eq!(found(&sequence), found(&sequence));
+}
+
+#[test]
+fn frames_of_any_size_are_taken() {
+    let stripes = |width: usize, height: usize, shift: f64| {
+        let picture = Grid::from_fn(width, height, |x, y| {
+            texture(x as f64 - shift, y as f64) as f32
+        });
+        Frame::from_grey(picture).unwrap()
+    };
+    for (width, height) in [(16, 16), (16, 600), (600, 17), (28, 28)] {
+        let frames = [0.0, 0.8].map(|shift| stripes(width, height, shift));
+        let camera = Camera::centred(100.0, width, height).unwrap();
+        assert_eq!(automatic(&pair(frames), &camera), [], "{width}×{height}");
+    }
+}
