@@ -87,11 +87,11 @@ function shapesOf(words, { circle = [], polygon = [], auto }) {
   if (auto && circle.length + polygon.length > 0) {
     throw new UsageError("--auto finds the curves by itself; leave out --circle and --polygon");
   }
-  const circles = circle.map((text) => {
+  const circles = circle.map((/** @type {string} */ text) => {
     const [x, y, r] = numbers("circle", "X,Y,R", text, (count) => count === 3);
     return { kind: "circle", x, y, r };
   });
-  const polygons = polygon.map((text) => {
+  const polygons = polygon.map((/** @type {string} */ text) => {
     const form = "X1,Y1,X2,Y2,X3,Y3,… (three corners or more)";
     const all = numbers("polygon", form, text, (count) => count >= 6 && count % 2 === 0);
     const corners = Array.from({ length: all.length / 2 }, (_, i) => all.slice(2 * i, 2 * i + 2));

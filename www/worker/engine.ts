@@ -5,15 +5,7 @@
  * opened or configured is built anew before the old is let go, so an error leaves things as they were.
  */
 
-import {
-  findCurves,
-  Frame,
-  hornSchunck,
-  Scene,
-  Solver,
-  type Baseline,
-  type Picture,
-} from "./core";
+import { findCurves, Frame, hornSchunck, Scene, Solver, type Baseline, type Picture } from "./core";
 import type {
   Camera,
   Contour,
