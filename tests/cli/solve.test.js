@@ -179,6 +179,11 @@ describe("a wrong command line ends with 2 and a sentence", () => {
     ["half a circle", [...pair, ...FOCAL, "--circle", "5,5"], /is not of the form X,Y,R/],
     ["a circle of NaN", [...pair, ...FOCAL, "--circle", "5,NaN,5"], /is not of the form X,Y,R/],
     ["half a corner", [...pair, ...FOCAL, "--polygon", "1,2,3,4,5,6,7"], /is not of the form/],
+    [
+      "--auto with a curve",
+      [...pair, ...FOCAL, "--auto", "--circle", "9,9,5"],
+      /leave out --circle/,
+    ],
     ["too many curves", [...pair, ...FOCAL, ...eight], /8 curves.*at most 7/],
     ["an unknown option", [...pair, ...FOCAL, "--colour", "red"], /'--colour'/],
     ["an option without its value", [...pair, "--focal"], /--focal/],
@@ -190,6 +195,30 @@ describe("a wrong command line ends with 2 and a sentence", () => {
     ["an unknown choice", [...pair, ...FOCAL, "--diffusion", "linear"], /"linear" is no diffusion/],
   ];
   for (const [name, words, sentence] of cases) test(name, () => refused(words, 2, sentence));
+});
+
+describe("--auto", () => {
+  const scene = join(folder, "auto-scene");
+  const frames = ["frame0.png", "frame1.png"].map((name) => join(scene, name));
+
+  before(() => {
+    relievo("scene", "squares", "--size", "160x120", "--out", scene);
+  });
+
+  test("finds what moves, says where, and starts from there", () => {
+    const out = join(folder, "auto-found");
+    const words = ["--focal", "160", "--iterations", "1", "--out", out];
+    const found = relievo(...frames, ...words, "--auto");
+    assert.equal(found.status, 0);
+    assert.match(found.stdout, /^2 curves found/m);
+    assert.match(found.stdout, /^curve 2 /m);
+    const named = [...found.stdout.matchAll(/--polygon (\S+)/g)].map((match) => String(match[1]));
+    assert.equal(named.length, 2);
+    const labels = readFileSync(join(out, "labels.png"));
+    const again = relievo(...frames, ...words, ...named.flatMap((points) => ["--polygon", points]));
+    assert.equal(again.status, 0);
+    assert.deepEqual(readFileSync(join(out, "labels.png")), labels);
+  });
 });
 
 /**

@@ -236,3 +236,15 @@ test.describe("by touch", () => {
     expect(await page.evaluate(() => scrollY)).toBe(scrolled);
   });
 });
+
+test("curves are found, announced, and taken back in one step", async ({ opened: page }) => {
+  const before = await shapes(page);
+  await page.getByRole("button", { name: "Find curves" }).click();
+  await expect(page.locator("#hint")).toHaveText("2 curves found.");
+  const found = await shapes(page);
+  expect(found.map((shape) => shape.kind)).toEqual(["polygon", "polygon"]);
+  await expect(page.locator("#regions > li")).toHaveCount(3);
+  await page.getByRole("button", { name: "Undo" }).click();
+  expect(await shapes(page)).toEqual(before);
+  await expect(page.locator("#hint")).not.toHaveText("2 curves found.");
+});
