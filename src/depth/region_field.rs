@@ -161,16 +161,23 @@ impl Edges {
         pull
     }
 
-    /// Σ c over the neighbours of pixel `i` in a frame `width` wide.
-    pub fn around(&self, i: usize, width: usize) -> f64 {
-        let mut sum = self.right[i] + self.below[i];
-        if i > 0 {
-            sum += self.right[i - 1];
-        }
-        if i >= width {
-            sum += self.below[i - width];
-        }
-        f64::from(sum)
+    /// γ = Σ h/(h + Σc): how many of the field's values the data weights h determine, the rest being
+    /// smoothed over. Pixel by pixel, which counts each neighbour as known.
+    pub fn determined(&self, data: &Grid<f32>) -> f64 {
+        let around = |i: usize| {
+            let mut sum = self.right[i] + self.below[i];
+            if i > 0 {
+                sum += self.right[i - 1];
+            }
+            if i >= data.width() {
+                sum += self.below[i - data.width()];
+            }
+            f64::from(sum)
+        };
+        let each = data.data().iter().enumerate();
+        each.filter(|(_, h)| **h > 0.0)
+            .map(|(i, &h)| f64::from(h) / (f64::from(h) + around(i)))
+            .sum()
     }
 
     /// Σ c (bend)².

@@ -22,10 +22,10 @@ use crate::depth::FieldPrior;
 use crate::motion::Kind;
 
 use super::evidence::Evidence;
-use super::region::Region;
+use super::region::{Region, certainty};
 
 /// n0, in pixels.
-const CORRELATED: f64 = 6.0;
+pub(super) const CORRELATED: f64 = 6.0;
 /// δ, in pixels.
 const INTERPOLATION: f64 = 0.03;
 /// Joint steps that each start is fitted with, and those with which the best of each kind goes on.
@@ -43,7 +43,6 @@ pub(super) fn chosen(
     region: &Region,
     evidence: &Evidence,
     prior: &FieldPrior,
-    block: usize,
     reliefs: &[f64],
 ) -> Region {
     let fitted = |mut region: Region, steps: usize| {
@@ -56,7 +55,7 @@ pub(super) fn chosen(
     };
     let of_kind = |kind: Kind| {
         let mut start = region.clone();
-        start.become_kind(kind, evidence, prior, block);
+        start.become_kind(kind, evidence, prior);
         start
     };
     let full = of_kind(Kind::Full);
@@ -105,7 +104,7 @@ fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
     let linearisation = evidence.linearise(region);
     let weight = evidence.weights(&linearisation);
     let variance = evidence.sigma * evidence.sigma;
-    let (mut misfit, mut pixels, mut freedom) = (0.0, 0.0, 0.0);
+    let (mut misfit, mut pixels) = (0.0, 0.0);
     let bends = region.bends(&linearisation, evidence, &weight);
     let edges = prior.edges(&bends);
     for i in 0..weight.len() {
@@ -114,12 +113,12 @@ fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
         }
         pixels += 1.0;
         misfit += evidence.misfit(&linearisation, i);
-        if region.kind.translates() {
-            let row = &linearisation.rows.data()[i];
-            let h = f64::from(weight.data()[i] * row[0] * row[0]);
-            freedom += h / (h + edges.around(i, weight.width()) + 1e-12);
-        }
     }
+    let freedom = if region.kind.translates() {
+        edges.determined(&certainty(&linearisation, &weight))
+    } else {
+        0.0
+    };
     let parameters = match region.kind {
         Kind::Still => 0.0,
         Kind::Rotation => 3.0,

@@ -16,6 +16,7 @@ use super::noise::{Noise, change_of_light};
 use super::region::{Region, certainty};
 use super::rivalry;
 use super::schedule::Schedule;
+use super::stiffness;
 use super::weights::Weights;
 use crate::camera::{Camera, RigidMotion};
 use crate::curves::{self, Measure};
@@ -35,8 +36,6 @@ use crate::window::Window;
 const JOINT_STEPS: usize = 2;
 /// Pixels around a region in which its field is computed, and beyond which its curve does not leap.
 const MARGIN: usize = 20;
-/// Side of the blocks in which depth is eliminated, in pixels.
-const BLOCK: usize = 8;
 /// Pixels that their owner does not explain are offered to regions within this distance, in pixels, and
 /// count this much there: a region grows over an edge of its surface only if its depth follows.
 const OFFERED: (f32, f32) = (8.0, 0.5);
@@ -149,10 +148,10 @@ impl Layers {
         &self.scales[self.schedule.level]
     }
 
-    fn prior(&self, evidence: &Evidence, options: &Options) -> FieldPrior {
+    fn prior(&self, k: usize, evidence: &Evidence, options: &Options) -> FieldPrior {
         FieldPrior {
             diffusion: options.diffusion,
-            strength: self.weights.mu,
+            strength: self.weights.mu * self.regions[k].stiffness,
             epsilon: options.epsilon * f64::from(1u32 << self.schedule.level),
             relief: evidence.relief_prior(),
         }
@@ -215,7 +214,7 @@ impl Layers {
             let window = self.window(k);
             let evidence = self.evidence(k, window, options);
             let mut part = self.regions[k].cropped(&window);
-            let prior = self.prior(&evidence, options);
+            let prior = self.prior(k, &evidence, options);
             improve(&mut part, &evidence, &prior);
             let line = evidence.linearise(&part);
             let certain = certainty(&line, &evidence.weights(&line));
@@ -329,21 +328,25 @@ impl Approach for Layers {
                 return;
             }
             if options.search && schedule.searches() {
-                region.search(evidence, prior, BLOCK);
+                region.search(evidence, prior);
             }
             for _ in 0..JOINT_STEPS {
                 region.fit_jointly(evidence, prior);
                 region.normalise(&evidence.owned);
             }
             if options.choose_kind && schedule.chooses() {
-                *region = choice::chosen(region, evidence, prior, BLOCK, schedule.reliefs());
+                *region = choice::chosen(region, evidence, prior, schedule.reliefs());
             }
         });
     }
 
     fn find_depth(&mut self, options: &Options) {
         if self.schedule.deep().is_some() {
+            let learns = options.mu.is_none() && self.schedule.learns();
             self.each_region(options, |region, evidence, prior| {
+                if learns {
+                    region.stiffness = stiffness::supported(region, evidence, prior);
+                }
                 region.fit_depth(evidence, prior);
                 region.normalise(&evidence.owned);
                 if options.lighting {
@@ -436,7 +439,7 @@ impl Approach for Layers {
             if weight.data().iter().all(|w| *w <= 0.0) {
                 return 0.0;
             }
-            let prior = self.prior(&evidence, options);
+            let prior = self.prior(k, &evidence, options);
             let bends = region.cropped(&window).bends(&lines[k], &evidence, &weight);
             prior.edges(&bends).energy(&bends)
         };

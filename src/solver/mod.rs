@@ -12,12 +12,14 @@ mod choice;
 mod composition;
 mod evidence;
 mod layers;
+mod leap;
 mod noise;
 mod region;
 mod report;
 mod rivalry;
 mod schedule;
 mod single_scale;
+mod stiffness;
 mod weights;
 
 pub use report::{RegionReport, Report, Seconds};

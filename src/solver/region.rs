@@ -5,10 +5,9 @@ use glam::{DQuat, DVec3};
 
 use super::evidence::Evidence;
 use crate::camera::RigidMotion;
-use crate::constraint::Coefficients;
 use crate::depth::{Bends, FieldPrior, Plane};
 use crate::grid::Grid;
-use crate::motion::{Blocks, Candidate, JointStep, Kind, held, solve_positive};
+use crate::motion::{JointStep, Kind, held, solve_positive};
 use crate::warp::{Linearisation, RESIDUAL, Scale};
 use crate::window::Window;
 
@@ -16,8 +15,6 @@ use crate::window::Window;
 pub(super) const RHO_RANGE: [f32; 2] = [0.02, 20.0];
 /// Pixels over which a surface's slope is taken for the same.
 const SLOPE: f64 = 8.0;
-/// Search only replaces a motion that it beats by this share.
-const BETTER: f64 = 0.97;
 
 /// A region.
 #[derive(Clone, Debug)]
@@ -25,6 +22,8 @@ pub(super) struct Region {
     pub motion: RigidMotion,
     pub kind: Kind,
     pub rho: Grid<f32>,
+    /// What the smoothness of its depth counts, as a share of μ.
+    pub stiffness: f64,
     /// How much brighter its pixels become: bodies turn under their lamps. Grey levels.
     pub shade: Grid<f32>,
 }
@@ -34,6 +33,7 @@ impl Region {
         Self {
             motion: RigidMotion::default(),
             kind: Kind::Full,
+            stiffness: 1.0,
             rho: Grid::new(width, height, 1.0),
             shade: Grid::new(width, height, 0.0),
         }
@@ -71,6 +71,7 @@ impl Region {
         window.paste(&part.shade, &mut self.shade);
         self.motion = part.motion;
         self.kind = part.kind;
+        self.stiffness = part.stiffness;
     }
 
     /// A Gauss–Newton step of (T, ω) with depth held as it is: robust while nothing is known of depth.
@@ -104,111 +105,6 @@ impl Region {
                 translation: turn * self.motion.translation + DVec3::new(x[0], x[1], x[2]),
                 rotation: (turn * DQuat::from_scaled_axis(self.motion.rotation)).to_scaled_axis(),
             };
-        }
-    }
-
-    /// Looks for a better motion anywhere on the sphere of directions, and depth with it.
-    pub fn search(&mut self, evidence: &Evidence, prior: &FieldPrior, block: usize) {
-        if !self.kind.translates() {
-            return;
-        }
-        let flow = evidence.linearise(self);
-        let blocks = self.blocks(&flow, evidence, block);
-        let rotates = self.kind.rotates();
-        let present = blocks.judge(self.motion.translation, rotates);
-        if let Some(found) = blocks.search(rotates)
-            && present.is_none_or(|p| found.cost < BETTER * p.cost)
-        {
-            self.adopt(&found, &flow, evidence, prior);
-        }
-    }
-
-    /// Takes a kind of motion on: parts of the motion that it forbids go, and what is left is found anew.
-    pub fn become_kind(
-        &mut self,
-        kind: Kind,
-        evidence: &Evidence,
-        prior: &FieldPrior,
-        block: usize,
-    ) {
-        if kind == self.kind && kind == Kind::Full {
-            return;
-        }
-        let flow = evidence.linearise(self);
-        self.kind = kind;
-        if !kind.rotates() {
-            self.motion.rotation = DVec3::ZERO;
-        }
-        if !kind.translates() {
-            self.motion.translation = DVec3::ZERO;
-            self.rho.data_mut().fill(1.0);
-            return;
-        }
-        let blocks = self.blocks(&flow, evidence, block);
-        if let Some(found) = blocks.search(kind.rotates()) {
-            self.adopt(&found, &flow, evidence, prior);
-        }
-    }
-
-    fn blocks(&self, flow: &Linearisation, evidence: &Evidence, side: usize) -> Blocks {
-        let weight = evidence.weights(flow);
-        let prior = evidence.rotation_prior();
-        Blocks::gather(&evidence.scale.camera, flow, &weight, side, prior)
-    }
-
-    /// Takes over a motion whose T has length 1, and finds its depth for the flow known so far.
-    fn adopt(
-        &mut self,
-        found: &Candidate,
-        flow: &Linearisation,
-        evidence: &Evidence,
-        prior: &FieldPrior,
-    ) {
-        // T's length is open: keep the size that goes with a depth around 1.
-        let size = self.motion.translation.length().max(1e-3);
-        self.motion = RigidMotion {
-            translation: found.motion.translation * size,
-            rotation: found.motion.rotation,
-        };
-        self.depth_for_flow(flow, evidence, prior);
-        self.normalise(&evidence.owned);
-    }
-
-    /// Depth anew, for the motion as it is, from the constraint around the *flow* that is known:
-    /// needed when the motion has jumped and the present depth means nothing for it.
-    fn depth_for_flow(&mut self, flow: &Linearisation, evidence: &Evidence, prior: &FieldPrior) {
-        let scale = evidence.scale;
-        let weight = evidence.weights(flow);
-        let n = weight.len();
-        let (width, height) = (weight.width(), weight.height());
-        let mut data = vec![0.0f32; n];
-        let mut right = vec![[0.0f32; 1]; n];
-        for i in 0..n {
-            let w = weight.data()[i];
-            data[i] = prior.relief as f32 * evidence.owned.data()[i];
-            right[i] = [data[i]];
-            if w <= 0.0 {
-                continue;
-            }
-            let [ix, iy] = flow.gradient.data()[i].map(f64::from);
-            let [u, v] = flow.flow.data()[i].map(f64::from);
-            let it = f64::from(flow.rows.data()[i][RESIDUAL]) - ix * u - iy * v;
-            let (x, y) = flow.window.place(i);
-            let (px, py) = (x as f64 + 0.5 * u, y as f64 + 0.5 * v);
-            let c = Coefficients::at(&scale.camera, px, py, ix, iy);
-            let slope = c.s.dot(self.motion.translation) as f32;
-            let offset = (it + c.q.dot(self.motion.rotation)) as f32;
-            data[i] += w * slope * slope;
-            right[i][0] -= w * slope * offset;
-        }
-        let flat = Grid::new(width, height, 0.0f32);
-        let edges = prior.edges(&Bends::of(&flat));
-        let mut rho = vec![[1.0f32; 1]; n];
-        edges
-            .system(width, height, data)
-            .solve(&right, &mut rho, 1e-4, 60);
-        for (out, [rho]) in self.rho.data_mut().iter_mut().zip(rho) {
-            *out = rho.clamp(RHO_RANGE[0], RHO_RANGE[1]);
         }
     }
 
@@ -287,18 +183,6 @@ impl Region {
             * owned
                 .map(|(&w, &rho)| f64::from(w * (rho - 1.0).powi(2)))
                 .sum::<f64>()
-    }
-
-    /// The motion with relief `depth` times as deep that shows nearly the same: what a narrow view
-    /// confuses (the bas-relief ambiguity; at −1 near and far change places, Necker's cube).
-    pub fn scale_relief(&mut self, depth: f64, evidence: &Evidence, prior: &FieldPrior) {
-        let flow = evidence.linearise(self);
-        let t = self.motion.translation;
-        let rest = (1.0 - 1.0 / depth) * t;
-        self.motion.translation = DVec3::new(t.x / depth, t.y / depth, t.z);
-        self.motion.rotation += DVec3::new(-rest.y, rest.x, 0.0);
-        self.depth_for_flow(&flow, evidence, prior);
-        self.normalise(&evidence.owned);
     }
 
     /// Mean ρ over the owned pixels back to 1, T with it; turned round if most of it is behind the camera.

@@ -18,6 +18,8 @@ const THRESHOLD_PASSES: usize = 4;
 const CHOOSING: usize = 2;
 /// The pass on the finest scale in which they are chosen again, depth being known in detail by then.
 const CHOOSING_AGAIN: usize = THRESHOLD_PASSES + 3;
+/// The pass on the finest scale in which regions find out how stiff their depth is.
+const LEARNING: usize = CHOOSING_AGAIN;
 /// The pass on the finest scale from which hidden pixels are excused: earlier, regions would collapse.
 const EXCUSING: usize = 2;
 /// The pass of a scale after which the change of light is measured.
@@ -84,6 +86,11 @@ impl Schedule {
     /// Whether regions are where they should be, to the pixel.
     pub fn settled(&self) -> bool {
         self.at_least(THRESHOLD_PASSES)
+    }
+
+    /// Whether regions find out how stiff their depth is.
+    pub fn learns(&self) -> bool {
+        self.level == 0 && self.deep() == Some(LEARNING)
     }
 
     /// Whether a curve may still leap anywhere.
@@ -155,7 +162,7 @@ impl Schedule {
 
     /// Whether there is more to do than waiting for all to stand still.
     pub fn unfinished(&self) -> bool {
-        !self.at_least(CHOOSING_AGAIN + 1)
+        !self.at_least(LEARNING + 2)
     }
 
     /// Goes back to the first pass of this scale, for curves drawn anew.
