@@ -52,9 +52,12 @@ export function standing({ report, running, started, busy, frames }: Readonly<St
   if (busy) return `${busy}…`;
   if (!frames) return "";
   if (!report || !started) return "Ready";
-  const passes = report.iterations === 1 ? "1 pass" : `${report.iterations} passes`;
-  const scale =
-    report.levels > 1 ? ` · scale ${report.levels - report.level} of ${report.levels}` : "";
+  const passes = report.iterations === 1 ? "1\u00a0pass" : `${report.iterations}\u00a0passes`;
+  const place =
+    report.levels > 1
+      ? ` · scale\u00a0${report.levels - report.level}\u00a0of\u00a0${report.levels}`
+      : "";
+  const scale = report.flat ? `${place} · still\u00a0flat` : place;
   const state = running ? "Running" : ENDED[report.status];
   const time = report.seconds.total > 0 ? ` · ${seconds(report.seconds.total)}` : "";
   return `${state} · ${passes}${scale} · E\u00a0${number(report.energy.total)}${time}`;
