@@ -96,7 +96,7 @@ test("where a finer scale begins is marked on the energy and said", async ({ ope
   await page.getByRole("button", { name: "Run" }).click();
   await until(page, ({ report }) => (report?.refined[0] ?? Infinity) < report!.history.length);
   await pauseRun(page);
-  await expect(page.locator("#status")).toContainText("scale 2 of 2");
+  await expect(page.locator("#status")).toContainText("scale 2/2");
   const plot = page.getByRole("img", { name: "Energy after each pass" });
   await expect(plot).toHaveAccessibleDescription(
     /on scale 1, from .* on scale 2\..*a finer scale begins/,
@@ -177,7 +177,7 @@ test("the paper's preset is one choice away, also while it runs", async ({ opene
   await preset.selectOption("best");
   await until(page, ({ report }) => report!.levels === 2);
   await runPasses(page, 1);
-  await expect(page.locator("#status")).toContainText("scale 1 of 2");
+  await expect(page.locator("#status")).toContainText("scale 1/2");
 });
 
 test("a weight can be changed while it runs", async ({ opened: page }) => {

@@ -73,7 +73,8 @@ export function rebuild(): void {
           label: "Energy",
           stroke: themeColour("--cyan"),
           width: 2,
-          points: { show: false },
+          // One pass makes no line.
+          points: { show: (_, __, first, last) => first === last, size: 6 },
         },
       ],
       hooks: { draw: [markScales] },
