@@ -31,7 +31,7 @@
 //! ```
 //! use relievo::{FramePair, Options, Solver, Status, scene, score};
 //!
-//! let squares = scene::render("squares", 80, 60)?;
+//! let squares = scene::render("squares", 120, 90)?;
 //! let [first, second] = squares.frames.clone();
 //! let pair = FramePair::new(first, second)?;
 //! let camera = squares.truth.camera;
