@@ -51,9 +51,10 @@ Exit code: 0 done, 1 what was given cannot be worked on, 2 the command line is w
 function presets(core) {
   const all = JSON.parse(core.presetCatalogue());
   const names = all.map(
-    (/** @type {Record<string, string>} */ p) => `${p["value"]}, ${p["label"]}`,
+    (/** @type {Record<string, string>} */ { value, label }, /** @type {number} */ i) =>
+      `${value} (${label}${i === 0 ? "; the default" : ""})`,
   );
-  return names.join("; ");
+  return names.join(" | ");
 }
 
 /** @param {import("./options.js").Descriptor} descriptor */

@@ -11,5 +11,8 @@
  * while (solver.step() === "running");
  * console.log(JSON.parse(solver.report()).regions);
  * ```
+ *
+ * The last argument holds what differs from the preset `best`, the default: `'{"lambda": 200}'`, or
+ * `'{"preset": "paper"}'` for the method as printed. `optionCatalogue()` lists all there is to set.
  */
 export * from "../pkg/relievo.js";

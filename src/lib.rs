@@ -17,7 +17,10 @@
 //! (7)  E = Σk ∫_Rk [ ψk² + μ g(‖∇Z‖) ] dx + λ Σ_{k≥1} ∮_γk ds
 //! ```
 //!
-//! by three steps in turn: motion by least squares, depth by descent, curves as level sets.
+//! by three steps in turn: motion by least squares, depth by descent, curves as level sets. So does
+//! [`Preset::Paper`](options::Preset::Paper). [`Preset::Best`](options::Preset::Best), the default, takes
+//! the same steps coarse to fine, with depth eliminated from the motion step and a depth field for each
+//! region.
 //!
 //! # Use
 //!
@@ -28,7 +31,7 @@
 //! ```
 //! use relievo::{FramePair, Options, Solver, Status, scene, score};
 //!
-//! let squares = scene::render("squares", 80, 60)?;
+//! let squares = scene::render("squares", 120, 90)?;
 //! let [first, second] = squares.frames.clone();
 //! let pair = FramePair::new(first, second)?;
 //! let camera = squares.truth.camera;

@@ -1,4 +1,4 @@
-//! The solver with the settings of the second preset: coarse to fine, a depth field per region.
+//! The solver with the settings of the default preset: coarse to fine, a depth field per region.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -86,7 +86,7 @@ fn scores(found: &Interpretation, sequence: &Sequence) -> (f64, f64) {
     (scores.labels_wrong, scores.aee.unwrap())
 }
 
-/// Solves a sequence; AEE is to be below `ratio` times that of the first preset and of Horn–Schunck.
+/// Solves a sequence; AEE is to be below `ratio` times that of the preset `paper` and of Horn–Schunck.
 fn promise(sequence: &Sequence, wrong: f64, ratio: f64) {
     let name = &sequence.name;
     let mut solver = start(sequence, &sequence.curves, best());
@@ -227,6 +227,36 @@ fn reset_gives_the_first_run_again() {
         other.step();
     }
     assert_eq!(everything(&other), first);
+}
+
+#[test]
+fn three_single_steps_are_a_pass_at_whatever_scale() {
+    let sequence = squares();
+    let mut whole = start(&sequence, &sequence.curves, best());
+    let mut parts = start(&sequence, &sequence.curves, best());
+    assert!(parts.report().flat);
+    while whole.report().level > 0 {
+        whole.step();
+        parts.step_motion();
+        parts.step_depth();
+        parts.step_curves();
+    }
+    assert_eq!(everything(&whole), everything(&parts));
+    assert!(!parts.report().flat);
+}
+
+#[test]
+fn the_report_says_after_which_pass_a_finer_scale_began() {
+    let sequence = squares();
+    let mut solver = start(&sequence, &sequence.curves, best());
+    assert_eq!(solver.report().levels, 2);
+    while solver.report().level > 0 {
+        assert!(solver.report().refined.is_empty());
+        solver.step();
+    }
+    assert_eq!(solver.report().refined, [solver.iterations()]);
+    solver.reset();
+    assert!(solver.report().refined.is_empty());
 }
 
 #[test]

@@ -69,6 +69,7 @@ fn defaults_are_valid_and_the_first_preset_is_the_default() {
         assert_eq!(read(&json!({ "preset": word(preset) })), Ok(options));
     }
     assert_eq!(Preset::ALL[0], Preset::default());
+    assert_eq!(word(Preset::default()), "best");
     assert_eq!(Options::default(), Options::preset(Preset::default()));
     assert_eq!(read(&json!({})), Ok(Options::default()));
 }
@@ -235,7 +236,7 @@ fn what_is_no_json_object_is_refused() {
         "[]",
         "7",
         "null",
-        "\"paper\"",
+        "\"best\"",
         "{\"mu\": NaN}",
         "{\"mu\": 1e999}",
         "{\"mu\": Infinity}",

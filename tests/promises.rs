@@ -1,4 +1,4 @@
-//! What the second preset adds to where regions are: kinds of motion, near and far, and other light.
+//! What the preset `best` adds to where regions are: kinds of motion, near and far, and other light.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

@@ -268,9 +268,8 @@ fn three_single_steps_are_a_pass() {
         parts.step_depth();
         parts.step_curves();
     }
-    assert_eq!(whole.interpretation(), parts.interpretation());
-    assert_eq!(whole.energy(), parts.energy());
-    assert_eq!(whole.contours(), parts.contours());
+    assert_eq!(everything(&whole), everything(&parts));
+    assert_eq!(parts.iterations(), 3);
 }
 
 #[test]

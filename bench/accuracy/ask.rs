@@ -9,9 +9,9 @@ use crate::cases::SEED;
 
 /// What `--help` prints.
 pub const HELP: &str = "\
-npm run accuracy -- [NAME…] [--preset paper|best] [--seed N] [--tsv FILE] [--data DIR]
+npm run accuracy -- [NAME…] [--preset best|paper] [--seed N] [--tsv FILE] [--data DIR]
 npm run accuracy -- --levers [NAME…] [--seed N]
-npm run accuracy -- --starts [NAME…] [--preset paper|best] [--seed N]
+npm run accuracy -- --starts [NAME…] [--preset best|paper] [--seed N]
 npm run accuracy -- --export DIR [NAME…] [--seed N]
 
 Solves the built-in sequences and 20 random variants, and says how far each result is from the truth.

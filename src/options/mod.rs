@@ -1,9 +1,9 @@
 //! Every weight and choice, once: its meaning, unit, range, default, and the term of (7) it scales.
 //!
 //! The command line, the page, the documentation and the tests read [`catalogue`]; none has a list
-//! of its own. Options cross every border as one JSON object `{"preset": "paper", key: value, …}`;
-//! keys that are missing keep the preset's default, and `null` means *chosen from the data* where
-//! the option allows it.
+//! of its own. Options cross every border as one JSON object `{"preset": "best", key: value, …}`;
+//! keys that are missing keep the preset's default, a missing preset is `best`, and `null` means
+//! *chosen from the data* where the option allows it.
 
 mod catalogue;
 mod descriptor;
@@ -24,22 +24,22 @@ pub const MAX_CURVES: usize = 7;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Preset {
-    /// The method as printed: one scale, Z by descent, one depth field.
-    #[default]
-    Paper,
     /// Coarse to fine, a field of inverse depth per region, depth eliminated from the motion step.
+    #[default]
     Best,
+    /// The method as printed: one scale, Z by descent, one depth field.
+    Paper,
 }
 
 impl Preset {
     /// All of them, the default first.
-    pub const ALL: &'static [Self] = &[Self::Paper, Self::Best];
+    pub const ALL: &'static [Self] = &[Self::Best, Self::Paper];
 
-    /// What to show for it.
+    /// What to show beside its name.
     pub fn label(self) -> &'static str {
         match self {
-            Self::Paper => "as in the paper",
-            Self::Best => "best: coarse to fine",
+            Self::Best => "coarse to fine",
+            Self::Paper => "as printed",
         }
     }
 }
@@ -131,6 +131,23 @@ impl Options {
     /// The settings of a preset.
     pub fn preset(preset: Preset) -> Self {
         match preset {
+            Preset::Best => Self {
+                motion: MotionMethod::Joint,
+                depth: DepthMethod::Layers,
+                epsilon: 3e-3,
+                smoothing: 0.5,
+                search: true,
+                choose_kind: true,
+                robust: true,
+                normalised: true,
+                lighting: true,
+                gradients: true,
+                occlusion: true,
+                islands: true,
+                max_passes: 40,
+                preset,
+                ..Self::preset(Preset::Paper)
+            },
             Preset::Paper => Self {
                 preset,
                 motion: MotionMethod::LeastSquares,
@@ -154,23 +171,6 @@ impl Options {
                 max_passes: 150,
                 tolerance: 2e-4,
             },
-            Preset::Best => Self {
-                motion: MotionMethod::Joint,
-                depth: DepthMethod::Layers,
-                epsilon: 3e-3,
-                smoothing: 0.5,
-                search: true,
-                choose_kind: true,
-                robust: true,
-                normalised: true,
-                lighting: true,
-                gradients: true,
-                occlusion: true,
-                islands: true,
-                max_passes: 40,
-                preset,
-                ..Self::preset(Preset::Paper)
-            },
         }
     }
 
@@ -188,7 +188,7 @@ impl Options {
         let preset = match given.get("preset") {
             None => Preset::default(),
             Some(value) => serde_json::from_value(value.clone())
-                .map_err(|_| choice("preset", value, &["paper", "best"]))?,
+                .map_err(|_| choice("preset", value, &["best", "paper"]))?,
         };
         let mut all = Self::preset(preset).as_map();
         for (key, value) in given {

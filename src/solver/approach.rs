@@ -53,6 +53,9 @@ pub(super) trait Approach {
     /// The scale at work, 0 the finest, and the number of scales.
     fn scale(&self) -> (usize, usize);
 
+    /// Whether regions are taken for flat as yet, so that step 2 leaves depth alone.
+    fn flat(&self) -> bool;
+
     /// What the frames are taken for, at the frame's size.
     fn interpretation(&self) -> Interpretation;
 }

@@ -483,6 +483,10 @@ impl Approach for Layers {
         (self.schedule.level, self.schedule.start + 1)
     }
 
+    fn flat(&self) -> bool {
+        self.schedule.deep().is_none()
+    }
+
     fn interpretation(&self) -> Interpretation {
         let read: Vec<Layer> = self
             .regions

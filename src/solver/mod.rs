@@ -1,7 +1,7 @@
 //! The three steps in turn: motion, depth, curves; and what a person may do meanwhile.
 //!
 //! Only this module knows the order of the steps; none of them calls another. A pass is
-//! motion → depth → curves. The solver stops as
+//! motion → depth → curves, and ends with the curves, taken singly or not. The solver stops as
 //! - *converged* when, for three passes running, at most `tolerance` of all pixels change region and
 //!   the energy changes by less than a thousandth,
 //! - *exhausted* (out of iterations) after `max_passes` since the curves were drawn,
@@ -69,6 +69,8 @@ pub struct Solver {
     approach: Box<dyn Approach>,
     status: Status,
     history: Vec<f64>,
+    /// Passes that had been made when each finer scale was reached.
+    refined: Vec<usize>,
     /// Passes that had been made when the curves were drawn last.
     drawn_at: usize,
     still: usize,
@@ -100,6 +102,7 @@ impl Solver {
             options,
             status: Status::Running,
             history: Vec::new(),
+            refined: Vec::new(),
             drawn_at: 0,
             still: 0,
             seconds: Seconds::default(),
@@ -115,13 +118,16 @@ impl Solver {
 
     /// One pass: motion → depth → curves. Does nothing once the solver has stopped.
     pub fn step(&mut self) -> Status {
-        if self.status != Status::Running {
-            return self.status;
+        if self.status == Status::Running {
+            self.step_motion();
+            self.step_depth();
+            self.step_curves();
         }
-        let before = self.approach.labels().clone();
-        self.step_motion();
-        self.step_depth();
-        self.step_curves();
+        self.status
+    }
+
+    /// Counts a pass whose steps have been taken; `before` is who owned which pixel.
+    fn end_pass(&mut self, before: &Grid<u8>) {
         let energy = self.energy().total();
         let after = self.approach.labels();
         let changed = before.data().iter().zip(after.data());
@@ -136,11 +142,15 @@ impl Solver {
             0
         };
         self.history.push(energy);
+        let scale = self.approach.scale();
         if self
             .approach
             .end_pass(self.still >= STILL_PASSES, &self.options)
         {
             self.still = 0;
+        }
+        if self.approach.scale() != scale {
+            self.refined.push(self.history.len());
         }
         self.status = if !energy.is_finite() {
             Status::Diverged
@@ -151,7 +161,6 @@ impl Solver {
         } else {
             Status::Running
         };
-        self.status
     }
 
     /// Step 1 alone: the motion of every region, for the present depth and curves.
@@ -168,11 +177,13 @@ impl Solver {
         self.seconds.depth += (self.clock)() - start;
     }
 
-    /// Step 3 alone: the curves, for the present motions and depth.
+    /// Step 3 alone: the curves, for the present motions and depth. It ends the pass.
     pub fn step_curves(&mut self) {
+        let before = self.approach.labels().clone();
         let start = (self.clock)();
         self.approach.move_curves(&self.options);
         self.seconds.curves += (self.clock)() - start;
+        self.end_pass(&before);
     }
 
     /// The three terms of (7) as they stand.
@@ -247,6 +258,7 @@ impl Solver {
         let level_sets = level_sets(&self.pair, &self.shapes).unwrap_or_default();
         self.approach = begin(&self.pair, self.camera, level_sets, &self.options);
         self.history.clear();
+        self.refined.clear();
         self.drawn_at = 0;
         self.seconds = Seconds::default();
         self.resume();

@@ -49,10 +49,14 @@ pub struct Report {
     pub level: usize,
     /// Number of scales.
     pub levels: usize,
+    /// Whether regions are taken for flat as yet, before depth is looked for.
+    pub flat: bool,
     /// The terms of (7).
     pub energy: Terms,
-    /// Total energy after each pass.
+    /// Total energy after each pass; comparable between passes of one scale.
     pub history: Vec<f64>,
+    /// Passes that had been made when each finer scale was reached.
+    pub refined: Vec<usize>,
     /// Every region, the background first.
     pub regions: Vec<RegionReport>,
     /// The weights in force.
@@ -111,11 +115,13 @@ impl Report {
             status: solver.status,
             level,
             levels,
+            flat: solver.approach.flat(),
             energy: Terms {
                 terms: energy,
                 total: energy.total(),
             },
             history: solver.history.clone(),
+            refined: solver.refined.clone(),
             warnings: warnings(&regions),
             regions,
             weights: solver.approach.weights(),

@@ -260,6 +260,10 @@ impl Approach for SingleScale {
         (0, 1)
     }
 
+    fn flat(&self) -> bool {
+        false
+    }
+
     fn interpretation(&self) -> Interpretation {
         let (width, height) = (self.labels.width(), self.labels.height());
         let mut flow = Flow {

@@ -77,7 +77,8 @@ pub struct Solver {
 impl Solver {
     /// A solver at its start. `camera` is `{"focal", "cx"?, "cy"?}`, `shapes` an array of
     /// `{"kind": "circle", "x", "y", "r"}` and `{"kind": "polygon", "points": [[x, y], …]}`, `options`
-    /// an object of what differs from the preset; all three are JSON.
+    /// an object of what differs from the preset, `"preset": "best"` where it names none; all three are
+    /// JSON.
     #[wasm_bindgen(constructor)]
     pub fn new(
         first: &Frame,

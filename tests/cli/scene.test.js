@@ -97,6 +97,7 @@ describe("asking what there is", () => {
       assert.equal(stderr, "");
       const wanted = ["--focal", "--circle", "--polygon", "--centre", "--preset", "--max-passes"];
       for (const word of [...wanted, ...names]) assert.ok(stdout.includes(word), word);
+      assert.match(stdout, /best \([^|]*the default\) \|\s+paper/);
     }
   });
 

@@ -21,13 +21,13 @@ describe("a solve", () => {
 
   before(() => {
     const curves = ["--circle", "20,24,8", "--polygon", "40,14,56,14,56,34,40,34"];
-    ran = relievo(first, second, ...FOCAL, ...curves, "--iterations", "3", "--out", out);
+    ran = relievo(first, second, ...FOCAL, ...curves, "--iterations", "6", "--out", out);
   });
 
   test("succeeds, with a summary on stdout and nothing on stderr", () => {
     assert.equal(ran.stderr, "");
     assert.equal(ran.status, 0);
-    assert.match(ran.stdout, /after [1-3] passes/);
+    assert.match(ran.stdout, /after [1-6] passes/);
     assert.match(ran.stdout, /background/);
     assert.match(ran.stdout, /curve 2/);
   });
@@ -95,7 +95,7 @@ describe("a solve", () => {
       assert.deepEqual([translation.length, rotation.length], [3, 3]);
     }
     assert.match(status, /^(converged|exhausted)$/);
-    assert.ok(iterations >= 1 && iterations <= 3);
+    assert.ok(iterations >= 1 && iterations <= 6);
     assert.equal(energy.length, iterations);
     assert.ok(seconds.total > 0);
     for (const step of ["motion", "depth", "curves"]) assert.ok(seconds[step] >= 0);
@@ -112,12 +112,23 @@ test("without a curve there is one region", () => {
 test("curves are labelled in the order given, whatever their kind, with = or without, negative or not", () => {
   const out = join(folder, "ordered");
   const curves = ["--polygon=40,14,56,14,56,34,40,34", "--circle", "-2,24,8"];
-  const frozen = ["--iterations", "1", "--curve-steps", "1"];
+  const frozen = ["--preset", "paper", "--iterations", "1", "--curve-steps", "1"];
   const ran = relievo(first, second, ...FOCAL, ...curves, ...frozen, "--out", out);
   assert.equal(ran.status, 0, ran.stderr);
   const labels = labelsOf(readFileSync(join(out, "labels.png")));
   const at = (/** @type {number} */ x, /** @type {number} */ y) => labels[y * WIDTH + x];
   assert.deepEqual([at(48, 24), at(1, 24), at(30, 5)], [1, 2, 0]);
+});
+
+test("without --preset it is best, and paper is one option away", () => {
+  const depth = (/** @type {string[]} */ ...words) => {
+    const out = join(folder, "preset");
+    const ran = relievo(first, second, ...FOCAL, "--iterations", "6", "--out", out, ...words);
+    assert.equal(ran.status, 0, ran.stderr);
+    return readFileSync(join(out, "depth.pfm"));
+  };
+  assert.deepEqual(depth(), depth("--preset", "best"));
+  assert.notDeepEqual(depth(), depth("--preset", "paper"));
 });
 
 test("an existing folder is written into, and a path that cannot be a folder is an error", () => {

@@ -179,6 +179,18 @@ test("curves can be moved while it runs, and the run takes them up", async ({ op
   await expect(page.locator("#message")).toBeHidden();
 });
 
+test("a curve drawn while it runs joins in", async ({ opened: page }) => {
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+  await page.getByRole("button", { name: "Add a circle" }).click();
+  await until(page, (state) => state.report!.regions.length === 4);
+  await page.getByRole("button", { name: "Undo", exact: true }).click();
+  await until(page, (state) => state.report!.regions.length === 3);
+  await until(page, (state) => !state.running);
+  await expect(page.locator("#status")).toContainText("Converged");
+  await expect(page.locator("#message")).toBeHidden();
+});
+
 test("a curve off the frame is refused with a sentence, and stays to be moved back", async ({
   opened: page,
 }) => {

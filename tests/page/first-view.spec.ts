@@ -12,6 +12,7 @@ test("opens on the blocks with two curves drawn, ready to run", async ({ opened:
   await expect(page.getByRole("button", { name: "Run" })).toBeEnabled();
   await expect(page.locator("#regions > li")).toHaveCount(3);
   await expect(page.locator("#status")).toHaveText("Ready");
+  await expect(page.getByLabel("Preset")).toHaveValue("best");
   await expect(page.locator("#lesson")).not.toBeEmpty();
   expect((await look(page)).colours).toBeGreaterThan(20);
   expect((await look(page, "#overlay")).colours).toBeGreaterThan(2);

@@ -47,6 +47,9 @@ export async function until(page: Page, holds: (state: State) => boolean): Promi
 export const passes = (page: Page): Promise<number> =>
   read(page, (state) => state.report?.iterations ?? 0);
 
+/** Passes after which depth has begun to be looked for. */
+export const DEEP = 5;
+
 /** Runs until at least `count` passes are made, then pauses. */
 export async function runPasses(page: Page, count: number): Promise<void> {
   await page.getByRole("button", { name: "Run" }).click();
@@ -58,9 +61,28 @@ export async function runPasses(page: Page, count: number): Promise<void> {
     count,
     { timeout: PATIENCE },
   );
-  const pause = page.getByRole("button", { name: "Pause" });
-  if (await pause.isVisible()) await pause.click();
+  await pauseRun(page);
+}
+
+/** Pauses, unless it has come to its end by itself. */
+export async function pauseRun(page: Page): Promise<void> {
+  // At once, lest the run end in between and the button start it again.
+  await page.evaluate(() =>
+    document.querySelector<HTMLElement>("body[data-running=true] #run")?.click(),
+  );
   await until(page, (state) => !state.running);
+}
+
+export async function openScene(page: Page, scene: string): Promise<void> {
+  await page.getByLabel("Sequence").selectOption(scene);
+  await page.waitForFunction(
+    (name) => {
+      const { source, busy } = (window as unknown as { relievo: State }).relievo;
+      return source?.kind === "scene" && source.name === name && busy === null;
+    },
+    scene,
+    { timeout: PATIENCE },
+  );
 }
 
 export async function chooseView(page: Page, name: string): Promise<void> {
@@ -132,15 +154,7 @@ export async function onScreen(
 
 /** A built-in sequence's frames as PNG files, as if they were someone's own. */
 export async function framesOf(page: Page, scene: string): Promise<[Buffer, Buffer]> {
-  await page.getByLabel("Sequence").selectOption(scene);
-  await page.waitForFunction(
-    (name) => {
-      const { source, busy } = (window as unknown as { relievo: State }).relievo;
-      return source?.kind === "scene" && source.name === name && busy === null;
-    },
-    scene,
-    { timeout: PATIENCE },
-  );
+  await openScene(page, scene);
   const pictures = await page.evaluate(() => {
     const { frames } = (window as unknown as { relievo: State }).relievo;
     return frames!.map((frame) => {

@@ -2,7 +2,17 @@
 
 import type { Page } from "@playwright/test";
 
-import { chooseView, expect, open, PATIENCE, read, runPasses, test, until } from "./helpers";
+import {
+  chooseView,
+  expect,
+  open,
+  openScene,
+  PATIENCE,
+  read,
+  runPasses,
+  test,
+  until,
+} from "./helpers";
 
 /** Makes the core do `what` at the second step, in the first worker only. */
 async function sabotage(page: Page, what: string): Promise<void> {
@@ -83,11 +93,7 @@ test("never more than one progress is on its way, and none keeps the page busy",
 }) => {
   await page.addInitScript(watchProgress);
   await open(page);
-  await page.getByLabel("Sequence").selectOption("flight");
-  await until(
-    page,
-    (state) => (state.source as { name?: string }).name === "flight" && !state.busy,
-  );
+  await openScene(page, "flight");
   await chooseView(page, "Depth");
   await page.getByRole("button", { name: "Run" }).click();
   await page.waitForFunction(

@@ -1,6 +1,36 @@
 /** Running: energy falls, curves crawl, and every button does what it says. */
 
-import { expect, look, passes, read, runPasses, test, until } from "./helpers";
+import type { Page } from "@playwright/test";
+
+import {
+  chooseView,
+  DEEP,
+  expect,
+  look,
+  openScene,
+  passes,
+  PATIENCE,
+  pauseRun,
+  read,
+  runPasses,
+  test,
+  until,
+} from "./helpers";
+
+/** Waits for another pass, or for the end. */
+async function goesOn(page: Page): Promise<void> {
+  const then = await passes(page);
+  await page.waitForFunction(
+    (least) => {
+      const { report } = (
+        window as unknown as { relievo: { report: { iterations: number; status: string } } }
+      ).relievo;
+      return report.iterations > least || report.status !== "running";
+    },
+    then,
+    { timeout: PATIENCE },
+  );
+}
 
 test("a run makes the energy fall and the curves move on the frame", async ({ opened: page }) => {
   const before = await look(page);
@@ -44,7 +74,33 @@ test("each part of a pass can be taken by itself", async ({ opened: page }) => {
   expect(await read(page, (state) => state.report!.seconds.curves)).toBe(0);
   await page.getByRole("button", { name: "Curves", exact: true }).click();
   await until(page, (state) => state.report!.seconds.curves > 0);
-  expect(await passes(page)).toBe(0);
+  // The curves end a pass.
+  await expect.poll(() => passes(page), { timeout: PATIENCE }).toBe(1);
+  await expect(page.locator("#status")).toContainText("still flat");
+});
+
+test("depth can be taken by itself once regions are no longer flat", async ({ opened: page }) => {
+  await runPasses(page, DEEP);
+  await expect(page.locator("#status")).not.toContainText("still flat");
+  await chooseView(page, "Depth");
+  const before = await look(page);
+  const count = await passes(page);
+  await page.getByRole("button", { name: "Depth", exact: true }).click();
+  await expect
+    .poll(async () => (await look(page)).print, { timeout: PATIENCE })
+    .not.toBe(before.print);
+  expect(await passes(page)).toBe(count);
+});
+
+test("where a finer scale begins is marked on the energy and said", async ({ opened: page }) => {
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, ({ report }) => (report?.refined[0] ?? Infinity) < report!.history.length);
+  await pauseRun(page);
+  await expect(page.locator("#status")).toContainText("scale 2/2");
+  const plot = page.getByRole("img", { name: "Energy after each pass" });
+  await expect(plot).toHaveAccessibleDescription(
+    /on scale 1, from .* on scale 2\..*a finer scale begins/,
+  );
 });
 
 test("reset goes back to the drawn curves, and running again starts over", async ({
@@ -62,11 +118,7 @@ test("reset goes back to the drawn curves, and running again starts over", async
 });
 
 test("runs to an end by itself and says which", async ({ opened: page }) => {
-  await page.getByLabel("Sequence").selectOption("squares");
-  await until(
-    page,
-    (state) => (state.source as { name?: string }).name === "squares" && !state.busy,
-  );
+  await openScene(page, "squares");
   await page.getByRole("button", { name: "Run" }).click();
   await until(page, (state) => state.report !== null && state.report.status !== "running");
   await expect(page.locator("#status")).toContainText(/Converged|Out of iterations/);
@@ -91,22 +143,49 @@ test("numbers stand beside each region, and scores where the truth is known", as
   await expect(scores.getByRole("row", { name: /Labels wrong/ })).toContainText("%");
 });
 
+test("what belongs to the default preset is shown, and can be turned off while it runs", async ({
+  opened: page,
+}) => {
+  await page.getByText("Weights and choices").click();
+  const levers = page.locator("#options input[type=checkbox]:not([id$=-auto])");
+  expect(await levers.count()).toBeGreaterThanOrEqual(8);
+  for (const lever of await levers.all()) {
+    await expect(lever).toBeVisible();
+    await expect(lever).toBeChecked();
+  }
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+  await page.getByLabel("Light may change").uncheck();
+  await page.getByLabel("No islands").uncheck();
+  await goesOn(page);
+  await expect(page.locator("#message")).toBeHidden();
+  await page.getByRole("button", { name: "Back to the preset" }).click();
+  await expect(page.getByLabel("No islands")).toBeChecked();
+});
+
+test("the paper's preset is one choice away, also while it runs", async ({ opened: page }) => {
+  const preset = page.getByLabel("Preset");
+  await expect(preset).toHaveValue("best");
+  await runPasses(page, 2);
+  await page.getByRole("button", { name: "Run" }).click();
+  await preset.selectOption("paper");
+  await until(page, ({ report }) => report!.levels === 1 && report!.iterations >= 3);
+  await pauseRun(page);
+  const history = await read(page, (state) => state.report!.history);
+  expect(history.at(-1)!).toBeLessThan(history[0]!);
+  await expect(page.locator("#energy-text")).not.toContainText("scale");
+  await preset.selectOption("best");
+  await until(page, ({ report }) => report!.levels === 2);
+  await runPasses(page, 1);
+  await expect(page.locator("#status")).toContainText("scale 1/2");
+});
+
 test("a weight can be changed while it runs", async ({ opened: page }) => {
   await page.getByText("Weights and choices").click();
   await page.getByRole("button", { name: "Run" }).click();
   await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
   await page.getByLabel("Diffusion").selectOption("isotropic");
   await until(page, (state) => state.options["diffusion"] === "isotropic");
-  const then = await passes(page);
-  await page.waitForFunction(
-    (least) => {
-      const { report } = (
-        window as unknown as { relievo: { report: { iterations: number; status: string } } }
-      ).relievo;
-      return report.iterations > least || report.status !== "running";
-    },
-    then,
-    { timeout: 60_000 },
-  );
+  await goesOn(page);
   await expect(page.locator("#message")).toBeHidden();
 });

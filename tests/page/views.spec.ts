@@ -1,11 +1,11 @@
 /** Every view draws a picture, and one of its own. */
 
-import { chooseView, drawn, expect, look, read, runPasses, test, until } from "./helpers";
+import { chooseView, DEEP, drawn, expect, look, read, runPasses, test, until } from "./helpers";
 
 const FLAT = ["Depth", "Motion", "Anaglyph", "Labels", "Confidence", "Occlusion", "Compare"];
 
 test("each view shows something, and something else than the others", async ({ opened: page }) => {
-  await runPasses(page, 4);
+  await runPasses(page, DEEP);
   const prints = new Map<number, string>();
   for (const name of ["Curves", ...FLAT]) {
     await chooseView(page, name);
@@ -19,7 +19,7 @@ test("each view shows something, and something else than the others", async ({ o
 });
 
 test("a view's own choices change its picture", async ({ opened: page }) => {
-  await runPasses(page, 4);
+  await runPasses(page, DEEP);
   const changes: [string, string][] = [
     ["Depth", "#setting-palette"],
     ["Motion", "#setting-motion"],
@@ -38,7 +38,7 @@ test("a view's own choices change its picture", async ({ opened: page }) => {
 });
 
 test("parallax and convergence change the anaglyph", async ({ opened: page }) => {
-  await runPasses(page, 4);
+  await runPasses(page, DEEP);
   await chooseView(page, "Anaglyph");
   await until(page, (state) => state.pictures.length > 0 && state.pictures.every(Boolean));
   for (const name of ["Parallax", "Convergence"]) {
@@ -58,7 +58,7 @@ test("the truth, the found and Horn–Schunck stand side by side", async ({ open
 });
 
 test("the depth slider of a region changes depth, not its outline", async ({ opened: page }) => {
-  await runPasses(page, 3);
+  await runPasses(page, DEEP);
   await chooseView(page, "Labels");
   await until(page, (state) => state.pictures.every(Boolean) && state.pictures.length === 1);
   const labels = await look(page);
@@ -77,7 +77,7 @@ test("the depth slider of a region changes depth, not its outline", async ({ ope
 test("the relief stands, turns by keyboard and mouse, and takes plaster", async ({
   opened: page,
 }) => {
-  await runPasses(page, 4);
+  await runPasses(page, DEEP);
   await chooseView(page, "Relief");
   const canvas = page.locator("#relief canvas");
   await expect(canvas).toBeVisible({ timeout: 60_000 });

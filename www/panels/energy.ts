@@ -1,12 +1,21 @@
-/** The functional (7) falling, pass by pass. */
+/**
+ * The functional (7) falling, pass by pass.
+ *
+ * A finer scale has other pixels, smoothed less: its energy is another sum, so the line is broken where one
+ * begins.
+ */
 
 import uPlot from "uplot";
 
 import { byId, themeColour } from "../dom";
 import { compact, number, percent } from "../format";
 import { store, type State } from "../store";
+import { sentence } from "../wording";
+import type { Report } from "../worker/protocol";
 
-const HEIGHT = 150;
+const HEIGHT = 160;
+/** Room above the plot for the names of scales. */
+const HEADROOM = 18;
 
 let plot: uPlot | null = null;
 
@@ -47,6 +56,7 @@ export function rebuild(): void {
     {
       width: place.clientWidth || 300,
       height: HEIGHT,
+      padding: [HEADROOM, null, null, null],
       cursor: { show: false },
       legend: { show: false },
       scales: {
@@ -63,9 +73,11 @@ export function rebuild(): void {
           label: "Energy",
           stroke: themeColour("--cyan"),
           width: 2,
-          points: { show: false },
+          // One pass makes no line.
+          points: { show: (_, __, first, last) => first === last, size: 6 },
         },
       ],
+      hooks: { draw: [markScales] },
     },
     dataOf(store.state),
     place,
@@ -78,15 +90,60 @@ const WHOLE = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 const labels = (_: uPlot, values: (number | null)[]) =>
   values.map((value) => (value === null ? "" : compact(value)));
 
+/** Passes and their energy, with nothing in between where a finer scale begins. */
 function dataOf({ report }: Readonly<State>): uPlot.AlignedData {
-  const history = report?.history ?? [];
-  return [history.map((_, i) => i + 1), history];
+  const passes: number[] = [];
+  const energies: (number | null)[] = [];
+  for (const [i, energy] of (report?.history ?? []).entries()) {
+    if (report!.refined.includes(i)) {
+      passes.push(i + 0.5);
+      energies.push(null);
+    }
+    passes.push(i + 1);
+    energies.push(energy);
+  }
+  return [passes, energies];
 }
+
+/** A dashed line where a finer scale begins, and above it which it is. */
+function markScales(chart: uPlot): void {
+  const { ctx, bbox } = chart;
+  const { report } = store.state;
+  const ratio = window.devicePixelRatio || 1;
+  ctx.save();
+  ctx.strokeStyle = ctx.fillStyle = themeColour("--ink-soft");
+  ctx.lineWidth = ratio;
+  ctx.setLineDash([3 * ratio, 3 * ratio]);
+  ctx.font = `${11 * ratio}px system-ui, sans-serif`;
+  ctx.textAlign = "center";
+  ctx.textBaseline = "bottom";
+  for (const [i, pass] of (report ? begun(report) : []).entries()) {
+    const x = Math.round(chart.valToPos(pass + 0.5, "x", true));
+    ctx.beginPath();
+    ctx.moveTo(x, bbox.top);
+    ctx.lineTo(x, bbox.top + bbox.height);
+    ctx.stroke();
+    const name = `scale ${i + 2}`;
+    const room = bbox.left + bbox.width - ctx.measureText(name).width / 2;
+    ctx.fillText(name, Math.min(x, room), bbox.top - 3 * ratio);
+  }
+  ctx.restore();
+}
+
+/** Passes after which finer scales began, as far as one of theirs is over. */
+const begun = ({ refined, history }: Report) => refined.filter((pass) => pass < history.length);
 
 function inWords({ report }: Readonly<State>): string {
   if (!report) return "";
   const { data, smoothness, length, total } = report.energy;
-  const first = report.history[0] ?? total;
   const part = (value: number) => percent(value / (total || 1), 0);
-  return `From ${number(first)} to ${number(total)}. Of what is left, ${part(data)} is misfit of the frames, ${part(smoothness)} depth's roughness, ${part(length)} length of curves.`;
+  const left = `Of what is left, ${part(data)} is misfit of the frames, ${part(smoothness)} depth's roughness, ${part(length)} length of curves.`;
+  const ends = begun(report);
+  const fall = (start: number, end: number | undefined, place: string) => {
+    const last = end === undefined ? total : report.history[end - 1]!;
+    return `from ${number(report.history[start] ?? total)} to ${number(last)}${place}`;
+  };
+  if (ends.length === 0) return `${sentence(fall(0, undefined, ""))} ${left}`;
+  const falls = [0, ...ends].map((start, i) => fall(start, ends[i], ` on scale ${i + 1}`));
+  return `${sentence(falls.join(", "))} ${left} A dashed line is where a finer scale begins: other pixels are summed up, so energy can be compared only within a scale.`;
 }

@@ -61,7 +61,9 @@ function build({ catalogues }: Readonly<State>): void {
 function presetField(presets: { value: string; label: string }[]): HTMLElement | null {
   if (presets.length < 2) return null;
   const select = make("select", { id: "option-preset" });
-  select.append(...presets.map(({ value, label }) => make("option", { value }, label)));
+  select.append(
+    ...presets.map(({ value, label }) => make("option", { value }, `${value}: ${label}`)),
+  );
   select.addEventListener("change", () => change({ preset: select.value }));
   return make("label", { class: "field" }, make("span", {}, "Preset"), select);
 }

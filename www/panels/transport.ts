@@ -52,12 +52,17 @@ export function standing({ report, running, started, busy, frames }: Readonly<St
   if (busy) return `${busy}…`;
   if (!frames) return "";
   if (!report || !started) return "Ready";
-  const passes = report.iterations === 1 ? "1 pass" : `${report.iterations} passes`;
-  const scale =
-    report.levels > 1 ? ` · scale ${report.levels - report.level} of ${report.levels}` : "";
-  const state = running ? "Running" : ENDED[report.status];
-  const time = report.seconds.total > 0 ? ` · ${seconds(report.seconds.total)}` : "";
-  return `${state} · ${passes}${scale} · E\u00a0${number(report.energy.total)}${time}`;
+  const { iterations, level, levels, flat, status, energy } = report;
+  const parts = [
+    running ? "Running" : ENDED[status],
+    iterations === 1 ? "1 pass" : `${iterations} passes`,
+  ];
+  if (levels > 1) parts.push(`scale ${levels - level}/${levels}`);
+  // Who steps by hand would wonder why depth does not rise.
+  if (flat && !running) parts.push("still flat");
+  parts.push(`E ${number(energy.total)}`);
+  if (report.seconds.total > 0) parts.push(seconds(report.seconds.total));
+  return parts.map((part) => part?.replaceAll(" ", "\u00a0")).join("\u00a0· ");
 }
 
 const ENDED: Record<string, string> = {

@@ -45,6 +45,8 @@ function showView(state: Readonly<State>): void {
   byId("overlay").hidden = !editable;
   byId("showing").hidden = !editable;
   byId("relief").hidden = view.id !== "relief";
+  // Not only cleared: some browsers go on showing a canvas on which nothing but clearing happens.
+  byId("picture").hidden = view.id === "relief";
   byId("view-choices").replaceChildren(...view.settings(state).map(control));
 }
 

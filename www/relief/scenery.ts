@@ -20,7 +20,12 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 import type { MeshData } from "../worker/protocol";
 
-const FRONT = new Spherical(2.9, Math.PI / 2 - 0.2, 0.36);
+/** Where the eye looks from at first: a little from above and from the right. */
+const FRONT = { phi: Math.PI / 2 - 0.2, theta: 0.36 };
+/** Share of the picture that the surface may fill then. */
+const FILLED = 0.94;
+/** Vertices looked at to find the middle and how far away the eye must be: each of so many. */
+const SAMPLED = 11;
 /** How near and far the eye may go; the surface is about two units wide. */
 const NEAREST = 1;
 const FARTHEST = 12;
@@ -39,6 +44,8 @@ export class Scenery {
   private texture: CanvasTexture | null = null;
   private plaster = false;
   private waiting = false;
+  /** Nobody has turned the surface or come closer: the eye keeps all of it in view. */
+  private atHome = true;
 
   constructor(private readonly place: HTMLElement) {
     this.renderer = new WebGLRenderer({
@@ -61,6 +68,7 @@ export class Scenery {
     this.controls.minDistance = NEAREST;
     this.controls.maxDistance = FARTHEST;
     this.controls.addEventListener("change", () => this.invalidate());
+    this.controls.addEventListener("start", () => (this.atHome = false));
     this.home();
     new ResizeObserver(() => this.resize()).observe(place);
     this.resize();
@@ -74,6 +82,8 @@ export class Scenery {
     geometry.setIndex(new BufferAttribute(indices, 1));
     this.surface.geometry.dispose();
     this.surface.geometry = geometry;
+    this.surface.position.copy(this.middle().negate());
+    if (this.atHome) this.home();
     this.invalidate();
   }
 
@@ -105,6 +115,7 @@ export class Scenery {
   }
 
   turn(across: number, down: number): void {
+    this.atHome = false;
     const seat = new Spherical().setFromVector3(this.camera.position);
     seat.theta -= across;
     seat.phi = Math.min(Math.PI - 0.05, Math.max(0.05, seat.phi - down));
@@ -112,13 +123,50 @@ export class Scenery {
   }
 
   approach(factor: number): void {
+    this.atHome = false;
     const seat = new Spherical().setFromVector3(this.camera.position);
     seat.radius = Math.min(FARTHEST, Math.max(NEAREST, seat.radius * factor));
     this.sit(seat);
   }
 
   home(): void {
-    this.sit(FRONT);
+    this.atHome = true;
+    this.sit(new Spherical(this.distance(), FRONT.phi, FRONT.theta));
+  }
+
+  /** Places of some of the vertices, before the surface is moved to its middle. */
+  private *sampled(): Generator<Vector3> {
+    const places = this.surface.geometry.getAttribute("position");
+    const place = new Vector3();
+    for (let i = 0; i < (places?.count ?? 0); i += SAMPLED) {
+      yield place.fromBufferAttribute(places!, i);
+    }
+  }
+
+  private middle(): Vector3 {
+    const sum = new Vector3();
+    let count = 0;
+    for (const place of this.sampled()) {
+      sum.add(place);
+      count += 1;
+    }
+    return sum.divideScalar(Math.max(1, count));
+  }
+
+  /** How far in front the eye must be to see all of the surface. */
+  private distance(): number {
+    const eye = new Vector3().setFromSphericalCoords(1, FRONT.phi, FRONT.theta);
+    const right = new Vector3().crossVectors(this.camera.up, eye).normalize();
+    const up = new Vector3().crossVectors(eye, right);
+    const tall = FILLED * Math.tan((this.camera.fov * Math.PI) / 360);
+    const wide = tall * this.camera.aspect;
+    let distance = NEAREST;
+    for (const place of this.sampled()) {
+      place.add(this.surface.position);
+      const aside = Math.max(Math.abs(place.dot(right)) / wide, Math.abs(place.dot(up)) / tall);
+      distance = Math.max(distance, place.dot(eye) + aside);
+    }
+    return Math.min(FARTHEST, distance);
   }
 
   resize(): void {
@@ -126,9 +174,8 @@ export class Scenery {
     if (width === 0 || height === 0) return;
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    // A tall stage must not cut the sides off.
-    this.camera.zoom = Math.min(1, this.camera.aspect / 1.2);
     this.camera.updateProjectionMatrix();
+    if (this.atHome) this.home();
     this.invalidate();
   }
 

@@ -74,8 +74,12 @@ export interface Report {
   status: Status;
   level: number;
   levels: number;
+  /** Depth is not looked for yet. */
+  flat: boolean;
   energy: { data: number; smoothness: number; length: number; total: number };
   history: number[];
+  /** Passes that had been made when each finer scale was reached. */
+  refined: number[];
   regions: Region[];
   /** The weights in use, those chosen from the data included. */
   weights: Record<string, number>;
