@@ -7,9 +7,11 @@ mod lattice;
 mod outline;
 mod patches;
 mod rigid;
+mod seams;
 mod sight;
 mod surface;
 mod surfaces;
+mod union;
 
 pub use automatic::automatic;
 pub use consensus::{dominant, inside};
