@@ -4,6 +4,7 @@ mod automatic;
 mod bodies;
 mod consensus;
 mod lattice;
+mod likeness;
 mod outline;
 mod patches;
 mod rigid;
