@@ -72,6 +72,12 @@ fn what_moves_by_itself_is_found() {
     }
 }
 
+/// A turning drum between two other bodies shows two sides, and either would suit its neighbour's motion.
+#[test]
+fn sides_belong_to_the_body_whose_motion_they_share_at_the_seam() {
+    one_for_each(&scene::render("carousel", 320, 240).unwrap(), 0.7);
+}
+
 #[test]
 fn noise_large_motion_and_a_moving_camera_are_withstood() {
     one_for_each(
@@ -139,6 +145,59 @@ fn a_lone_square_is_found_wherever_it_goes() {
         let overlap = overlap(&mask(&curves[0], W, H), &true_square);
         assert!(overlap > 0.7, "{motion:?}: overlap {overlap}");
     }
+}
+
+#[test]
+fn where_nothing_moves_no_curve_is_found() {
+    // Frames without contrast, and equal ones, are no pair: here one pixel differs.
+    let still = |mut grey: Grid<f32>| {
+        let first = Frame::from_grey(grey.clone()).unwrap();
+        grey[(20, 30)] += 1.0;
+        let second = Frame::from_grey(grey).unwrap();
+        automatic(&pair([first, second]), &camera())
+    };
+    let picture =
+        |f: &dyn Fn(f64, f64) -> f64| Grid::from_fn(W, H, |x, y| f(x as f64, y as f64) as f32);
+    let nearly_flat = |x: f64, _| if x < 1.0 { 91.0 } else { 90.0 };
+    assert_eq!(still(picture(&nearly_flat)), []);
+    assert_eq!(still(picture(&texture)), []);
+    assert_eq!(
+        still(
+            scene::render("blocks", W, H).unwrap().frames[0]
+                .grey
+                .clone()
+        ),
+        []
+    );
+    // Frames of two scenes.
+    let [one, other] = ["blocks", "head"].map(|name| scene::render(name, W, H).unwrap());
+    let [[first, _], [second, _]] = [one.frames, other.frames];
+    assert_eq!(automatic(&pair([first, second]), &camera()), []);
+    // Two frames of nothing but noise, and a texture under noise of its own in each frame.
+    for (share, seed) in [(0.0, 1), (0.0, 5), (1.0, 3)] {
+        let frames = [seed, seed + 1].map(|seed| {
+            let noise = noise(seed);
+            let value = |x: f64, y: f64| {
+                120.0 + share * (texture(x, y) - 120.0) + noise[(x as usize, y as usize)]
+            };
+            Frame::from_grey(picture(&value)).unwrap()
+        });
+        assert_eq!(automatic(&pair(frames), &camera()), [], "share {share}");
+    }
+}
+
+/// Noise of five grey levels (a sum of four uniform numbers).
+fn noise(seed: u64) -> Grid<f64> {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let mut uniform = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1);
+        (state >> 33) as f64 / f64::from(1u32 << 31) - 0.5
+    };
+    Grid::from_fn(W, H, |_, _| {
+        5.0 * 3f64.sqrt() * (0..4).map(|_| uniform()).sum::<f64>()
+    })
 }
 
 #[test]

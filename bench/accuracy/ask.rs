@@ -12,6 +12,7 @@ pub const HELP: &str = "\
 npm run accuracy -- [NAME…] [--preset best|paper] [--seed N] [--tsv FILE] [--data DIR]
 npm run accuracy -- --levers [NAME…] [--seed N]
 npm run accuracy -- --starts [NAME…] [--preset best|paper] [--seed N]
+npm run accuracy -- --auto|--find [NAME…] [--seed N]
 npm run accuracy -- --export DIR [NAME…] [--seed N]
 
 Solves the built-in sequences and 20 random variants, and says how far each result is from the truth.
@@ -23,6 +24,8 @@ NAME          only these: blocks, carousel-1003, …
 --data DIR    solve the recorded sequences in DIR as well
 --levers      what each option of `best` is worth: it is switched off alone
 --starts      how much the result depends on where the circles are drawn
+--auto        which curves are found where nobody draws any, and where `best` ends from them
+--find        the same, without solving
 --export DIR  solve nothing; write frames and truth into a folder for each sequence";
 
 /// What a run does.
@@ -36,6 +39,11 @@ pub enum Work {
     Levers,
     /// Prints how results depend on the curves.
     Starts,
+    /// Prints which curves are found, and where solving from them ends if that is wanted too.
+    Automatic {
+        /// Whether to solve.
+        solving: bool,
+    },
     /// Writes frames and truth.
     Export(PathBuf),
 }
@@ -77,6 +85,8 @@ impl Asked {
                 "--help" => asked.work = Work::Help,
                 "--levers" => asked.work = Work::Levers,
                 "--starts" => asked.work = Work::Starts,
+                "--auto" => asked.work = Work::Automatic { solving: true },
+                "--find" => asked.work = Work::Automatic { solving: false },
                 "--export" => asked.work = Work::Export(value()?.into()),
                 "--tsv" => asked.tsv = Some(value()?.into()),
                 "--data" => asked.data = Some(value()?.into()),

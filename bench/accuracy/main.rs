@@ -1,9 +1,10 @@
 //! What the method reaches on sequences whose truth is known: `npm run accuracy -- --help`.
 //!
 //! At 320×240, from the circles that come with a sequence, with the weights that the method chooses
-//! itself. Nothing here is timed: every core is busy.
+//! itself. Times are those of a machine whose every core is busy.
 
 mod ask;
+mod automatic;
 mod cases;
 mod data;
 #[allow(dead_code, reason = "scenes need more of it")]
@@ -13,6 +14,7 @@ mod export;
 mod figures;
 mod levers;
 mod measure;
+mod overlap;
 mod placements;
 mod recorded;
 mod starts;
@@ -51,9 +53,10 @@ fn run(asked: &Asked) -> Result<(), Failure> {
     check(asked, &cases, &recorded)?;
     let wanted = |case: &Case| asked.wants(&case.name());
     let cases: Vec<Case> = cases.into_iter().filter(wanted).collect();
-    match &asked.work {
+    match asked.work.clone() {
         Work::Help => println!("{HELP}"),
-        Work::Export(folder) => export(&cases, folder)?,
+        Work::Export(folder) => export(&cases, &folder)?,
+        Work::Automatic { solving } => automatic::print(&cases, solving)?,
         Work::Levers => levers::print(&cases)?,
         Work::Starts if asked.names.is_empty() => {
             starts::print(&starts::usual(&cases), &asked.presets)?;

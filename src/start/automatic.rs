@@ -4,13 +4,15 @@
 //! as many as pay for their description; planes that one motion carries, whatever their depth, are
 //! one body; the body that holds most of the frame's border is the background, and each place where
 //! another explains the patches better gets an outline. Everything is decided by one criterion, the
-//! description length of the patches, so there is nothing to set. The same frames give the same curves.
+//! description length of the patches, so there is nothing to set. The same frames give the same curves;
+//! frames that do not show the same things give none.
 //!
 //! What moves as the background would at another depth cannot be told from scenery, and what covers less
 //! than a hundredth of the frame cannot be told from the seam between two motions.
 
 use super::bodies::bodies;
 use super::lattice::Lattice;
+use super::likeness::likeness;
 use super::outline::{Outline, outlines};
 use super::patches::patches;
 use super::sight::Sights;
@@ -29,6 +31,8 @@ const PIXELS: usize = 352 * 288;
 const SMOOTHING: f64 = 1.0;
 /// With fewer patches than this there is nothing to be told.
 const FEWEST: usize = 24;
+/// Frames less alike than this do not show the same things.
+const ALIKE: f64 = 0.5;
 /// Where patches disagree with what their neighbours do by more than they should: the median of a
 /// squared error in two dimensions, over its variance, and which window's errors count, of windows
 /// from the quietest to the least quiet.
@@ -45,7 +49,7 @@ const WORST: f64 = 16.0;
 pub fn automatic(pair: &FramePair, camera: &Camera) -> Vec<Shape> {
     let scales = scales(pair, *camera);
     let found = patches(&scales, 0);
-    if found.len() < FEWEST {
+    if found.len() < FEWEST || likeness(&scales[0], &found) < ALIKE {
         return Vec::new();
     }
     let lattice = Lattice::new(&found);

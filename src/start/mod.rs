@@ -4,12 +4,15 @@ mod automatic;
 mod bodies;
 mod consensus;
 mod lattice;
+mod likeness;
 mod outline;
 mod patches;
 mod rigid;
+mod seams;
 mod sight;
 mod surface;
 mod surfaces;
+mod union;
 
 pub use automatic::automatic;
 pub use consensus::{dominant, inside};

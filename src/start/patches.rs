@@ -9,7 +9,7 @@ use crate::grid::Grid;
 use crate::warp::Scale;
 
 /// Half the side of a patch, in pixels.
-const HALF: usize = 4;
+pub(super) const HALF: usize = 4;
 /// Distance between the centres of neighbouring patches.
 const SPACING: usize = 4;
 /// Steps of matching a scale.

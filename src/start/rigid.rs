@@ -60,8 +60,8 @@ impl Witness {
     }
 
     /// The same, in place of `count`.
-    pub fn for_many(mut self, count: usize) -> Self {
-        self.weight *= count as f64;
+    pub fn for_many(mut self, count: f64) -> Self {
+        self.weight *= count;
         self
     }
 

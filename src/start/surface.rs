@@ -15,7 +15,9 @@ use super::sight::Sights;
 use crate::motion::solve_positive;
 
 /// Terms that a surface may have.
-pub(super) const TERMS: [usize; 4] = [0, 2, 6, 8];
+pub(super) const TERMS: [usize; 4] = [0, SHIFT, 6, 8];
+/// Terms of one that only shifts.
+pub(super) const SHIFT: usize = 2;
 /// Standard deviation of a known beforehand, in pixels.
 const EXPECTED: f64 = 20.0;
 /// Errors granted to patches one fit after the other, in spreads of all patches.
