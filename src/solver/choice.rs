@@ -12,8 +12,9 @@
 //! spreads over, and p = Σ h/(h + Σc) the parameters' worth of freedom that depth takes (h its data weight,
 //! c its smoothing at a pixel), which kinds that translate pay for: with depth to adjust, noise alone can
 //! be explained. The d ln n is Schwarz's (1978), the 2p Akaike's. A simpler kind is taken when its C is
-//! within `Σ (δ‖∇I‖)²/2v / n0` of the least: what image motion off by δ = [`INTERPOLATION`] everywhere costs,
-//! since interpolated frames do not tell motions apart that differ by less, however many pixels there are.
+//! within `Σ ( (δ‖∇I‖)²/v + ν ) / 2 n0` of the least: what image motion off by δ = [`INTERPOLATION`] everywhere
+//! costs, and a variance off by the share ν = [`UNSURE`], since interpolated frames do not tell motions apart
+//! that differ by less, nor is a region without shadows and strangers, however many pixels there are.
 //!
 //! A narrow view hardly tells a deep relief that turns little from a shallow one that turns much, nor from
 //! its mirror image. Full motion is therefore fitted from several depths of relief, of which the best counts.
@@ -28,6 +29,8 @@ use super::region::{Region, certainty};
 pub(super) const CORRELATED: f64 = 6.0;
 /// δ, in pixels.
 const INTERPOLATION: f64 = 0.03;
+/// ν, a share of the noise's variance.
+const UNSURE: f64 = 0.07;
 /// Joint steps that each start is fitted with, and those with which the best of each kind goes on.
 const STEPS: [usize; 2] = [3, 5];
 
@@ -87,17 +90,18 @@ pub(super) fn chosen(
     simplest.map_or_else(|| region.clone(), |fit| fit.region)
 }
 
-/// What image motion off by δ costs.
+/// What image motion off by δ, and noise off by ν, cost.
 fn untold(region: &Region, evidence: &Evidence) -> f64 {
     let line = evidence.linearise(region);
     let gradients = line.gradient.data().iter().zip(evidence.owned.data());
     let sum: f64 = gradients
         .map(|(&[ix, iy], &own)| {
             let steep = f64::from(ix * ix + iy * iy);
-            f64::from(own) * steep / (2.0 * evidence.variance(ix, iy))
+            let position = INTERPOLATION * INTERPOLATION * steep / evidence.variance(ix, iy);
+            0.5 * f64::from(own) * (position + UNSURE)
         })
         .sum();
-    INTERPOLATION * INTERPOLATION * sum / CORRELATED
+    sum / CORRELATED
 }
 
 fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {

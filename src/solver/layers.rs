@@ -240,7 +240,8 @@ impl Layers {
     fn measure(&self, options: &Options) -> Measure {
         Measure {
             sigma: self.weights.sigma,
-            gradient_sigma: options.gradients.then_some(self.noise.gradient),
+            gradient_sigma: (options.gradients && !self.schedule.settled())
+                .then_some(self.noise.gradient),
             normalised: options.normalised,
         }
     }
