@@ -164,7 +164,7 @@ static CATALOGUE: &[Descriptor] = &[
     toggle(
         "gradients",
         "Gradients compete",
-        "Let regions compete for a pixel by the gradient of brightness as well, which tells texture from a change of light. Coarse to fine only.",
+        "Until curves have settled, let regions compete for a pixel by the gradient of brightness as well, which tells texture from a change of light. Coarse to fine only.",
         "ξ in (17)",
     ),
     toggle(

@@ -109,7 +109,7 @@ pub struct Options {
     pub normalised: bool,
     /// Whether brightness may change between the frames.
     pub lighting: bool,
-    /// Whether gradients compete besides brightness.
+    /// Whether gradients compete besides brightness until curves have settled.
     pub gradients: bool,
     /// Whether hidden pixels are excused from the competition.
     pub occlusion: bool,

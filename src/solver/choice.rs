@@ -12,9 +12,9 @@
 //! spreads over, and p = Σ h/(h + Σc) the parameters' worth of freedom that depth takes (h its data weight,
 //! c its smoothing at a pixel), which kinds that translate pay for: with depth to adjust, noise alone can
 //! be explained. The d ln n is Schwarz's (1978), the 2p Akaike's. A simpler kind is taken when its C is
-//! within `Σ ( (δ‖∇I‖)²/v + ν ) / 2 n0` of the least: what image motion off by δ = [`INTERPOLATION`] everywhere
-//! costs, and a variance off by the share ν = [`UNSURE`], since interpolated frames do not tell motions apart
-//! that differ by less, nor is a region without shadows and strangers, however many pixels there are.
+//! within `max( Σ (δ‖∇I‖)²/v, ν n ) / 2 n0` of the least: what image motion off by δ = [`INTERPOLATION`]
+//! everywhere costs, or a variance off by the share ν = [`UNSURE`], since interpolated frames do not tell motions
+//! apart that differ by less, nor is a region without shadows and strangers, however many pixels there are.
 //!
 //! A narrow view hardly tells a deep relief that turns little from a shallow one that turns much, nor from
 //! its mirror image. Full motion is therefore fitted from several depths of relief, of which the best counts.
@@ -31,8 +31,9 @@ pub(super) const CORRELATED: f64 = 6.0;
 const INTERPOLATION: f64 = 0.03;
 /// ν, a share of the noise's variance.
 const UNSURE: f64 = 0.07;
-/// Joint steps that each start is fitted with, and those with which the best of each kind goes on.
-const STEPS: [usize; 2] = [3, 5];
+/// Joint steps that each kind is fitted with, those that each depth of relief is, whose fit has farther to go,
+/// and those with which the best of each kind goes on.
+const STEPS: [usize; 3] = [3, 12, 5];
 
 /// A fit and its C.
 struct Fit {
@@ -48,32 +49,18 @@ pub(super) fn chosen(
     prior: &FieldPrior,
     reliefs: &[f64],
 ) -> Region {
-    let fitted = |mut region: Region, steps: usize| {
-        for _ in 0..steps {
-            region.fit_jointly(evidence, prior);
-            region.normalise(&evidence.owned);
-        }
-        let cost = criterion(&region, evidence, prior);
-        Fit { region, cost }
-    };
+    let fitted = |region: Region, steps| fitted(region, evidence, prior, steps);
     let of_kind = |kind: Kind| {
         let mut start = region.clone();
         start.become_kind(kind, evidence, prior);
         start
     };
-    let full = of_kind(Kind::Full);
-    let mut fulls = vec![fitted(full.clone(), STEPS[0])];
-    for &depth in reliefs {
-        let mut start = full.clone();
-        start.scale_relief(depth, evidence, prior);
-        fulls.push(fitted(start, STEPS[0]));
-    }
-    let full = fulls.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
+    let full = of_best_relief(&of_kind(Kind::Full), evidence, prior, reliefs);
     let mut fits: Vec<Fit> = [Kind::Still, Kind::Rotation, Kind::Translation]
         .into_iter()
         .map(|kind| fitted(of_kind(kind), STEPS[0]))
-        .chain(full)
-        .map(|fit| fitted(fit.region, STEPS[1]))
+        .chain([full])
+        .map(|fit| fitted(fit.region, STEPS[2]))
         .collect();
     let least = fits.iter().map(|f| f.cost).fold(f64::INFINITY, f64::min);
     let enough = least + untold(region, evidence);
@@ -90,18 +77,55 @@ pub(super) fn chosen(
     simplest.map_or_else(|| region.clone(), |fit| fit.region)
 }
 
-/// What image motion off by δ, and noise off by ν, cost.
+/// The full motion of the region with the depth of relief that explains it best.
+pub(super) fn in_relief(
+    region: &Region,
+    evidence: &Evidence,
+    prior: &FieldPrior,
+    reliefs: &[f64],
+) -> Region {
+    of_best_relief(region, evidence, prior, reliefs).region
+}
+
+fn of_best_relief(
+    region: &Region,
+    evidence: &Evidence,
+    prior: &FieldPrior,
+    reliefs: &[f64],
+) -> Fit {
+    let mut best = fitted(region.clone(), evidence, prior, STEPS[0]);
+    for &depth in reliefs {
+        let mut start = region.clone();
+        start.scale_relief(depth, evidence, prior);
+        let fit = fitted(start, evidence, prior, STEPS[1]);
+        if fit.cost < best.cost {
+            best = fit;
+        }
+    }
+    best
+}
+
+fn fitted(mut region: Region, evidence: &Evidence, prior: &FieldPrior, steps: usize) -> Fit {
+    for _ in 0..steps {
+        region.fit_jointly(evidence, prior);
+        region.normalise(&evidence.owned);
+    }
+    let cost = criterion(&region, evidence, prior);
+    Fit { region, cost }
+}
+
+/// What image motion off by δ or noise off by ν costs, whichever is more.
 fn untold(region: &Region, evidence: &Evidence) -> f64 {
     let line = evidence.linearise(region);
     let gradients = line.gradient.data().iter().zip(evidence.owned.data());
-    let sum: f64 = gradients
-        .map(|(&[ix, iy], &own)| {
-            let steep = f64::from(ix * ix + iy * iy);
-            let position = INTERPOLATION * INTERPOLATION * steep / evidence.variance(ix, iy);
-            0.5 * f64::from(own) * (position + UNSURE)
-        })
-        .sum();
-    sum / CORRELATED
+    let (mut position, mut pixels) = (0.0, 0.0);
+    for (&[ix, iy], &own) in gradients {
+        let steep = f64::from(ix * ix + iy * iy);
+        position += f64::from(own) * steep / evidence.variance(ix, iy);
+        pixels += f64::from(own);
+    }
+    let most = (INTERPOLATION * INTERPOLATION * position).max(UNSURE * pixels);
+    most / (2.0 * CORRELATED)
 }
 
 fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {

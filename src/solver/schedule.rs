@@ -26,11 +26,12 @@ const EXCUSING: usize = 2;
 const RELIGHTING: usize = 2;
 /// Passes in which T is looked for over all directions.
 const SEARCHING: usize = 2;
-/// Depths of relief that a full motion is tried with; on the finest scale only the first, its mirror image.
+/// Depths of relief that a full motion is tried with; only the first, its mirror image, where depth has been
+/// found on a coarser scale.
 const RELIEFS: [f64; 4] = [-1.0, 0.4, 2.5, -2.5];
 /// Standard deviation of threshold dynamics' window in pixels: at first, with depth, and what it falls by in
 /// a pass in between.
-const WINDOW: [f64; 3] = [2.5, 1.2, 0.25];
+const WINDOW: [f64; 3] = [2.5, 1.8, 0.25];
 
 /// Where the solver stands.
 #[derive(Clone, Copy, Debug)]
@@ -114,12 +115,20 @@ impl Schedule {
         }
     }
 
+    /// Whether the depth of relief of full motions is chosen by itself: on the first scale, where kinds are
+    /// not told apart yet.
+    pub fn chooses_relief(&self) -> bool {
+        self.level > 0
+            && self.level == self.start
+            && self.deep().is_some_and(|deep| deep + CHOOSING == PASSES[0])
+    }
+
     /// Depths of relief that a full motion is tried with then.
     pub fn reliefs(&self) -> &'static [f64] {
-        if self.level > 0 {
-            &RELIEFS
-        } else {
+        if self.level == 0 && (self.start > 0 || self.at_least(CHOOSING_AGAIN)) {
             &RELIEFS[..1]
+        } else {
+            &RELIEFS
         }
     }
 

@@ -1,0 +1,262 @@
+//! Coarse to fine: every region a layer with its own motion and its own depth over the whole frame.
+//!
+//! The two frames are halved again and again. Small patches, matched from the coarsest scale on, propose
+//! the motions to start from. Motion is searched for with depth eliminated and refined together with depth;
+//! curves move by threshold dynamics, and at last on the finest scale by (17); `schedule.rs` says when.
+//! Each hypothesis is judged by its own depth, so that the present owner of a pixel is not favoured. A
+//! region is computed in a window around it, beyond which its depth goes on as a plane.
+//!
+//! Here are the layers and what they are computed from; `steps.rs` improves them, `balance.rs` weighs them.
+
+mod balance;
+mod steps;
+
+use std::rc::Rc;
+
+use super::approach::pixels;
+use super::evidence::Evidence;
+use super::noise::{Noise, change_of_light};
+use super::region::{Region, certainty};
+use super::schedule::Schedule;
+use super::weights::Weights;
+use crate::camera::Camera;
+use crate::curves;
+use crate::depth::FieldPrior;
+use crate::frames::{FramePair, Lighting, doubled, halved};
+use crate::grid::Grid;
+use crate::occlusion::Cover;
+use crate::options::Options;
+use crate::start::{self, Patch};
+use crate::warp::{Scale, pyramid};
+use crate::window::Window;
+
+/// Pixels around a region in which its field is computed, and beyond which its curve does not leap.
+const MARGIN: usize = 20;
+/// Pixels that their owner does not explain are offered to regions within this distance, in pixels, and
+/// count this much there: a region grows over an edge of its surface only if its depth follows.
+const OFFERED: (f32, f32) = (8.0, 0.5);
+/// A region of fewer pixels than this keeps the motion that it has.
+const FEWEST: usize = 8;
+
+/// The layers, and the scale at which they stand.
+pub(super) struct Layers {
+    pair: Rc<FramePair>,
+    /// The finest first.
+    scales: Vec<Scale>,
+    smoothing: f64,
+    /// What the first frame's brightness has been changed by in all scales.
+    lighting: Lighting,
+    schedule: Schedule,
+    phi: Vec<Grid<f32>>,
+    labels: Grid<u8>,
+    /// Pixels that their owner does not explain.
+    unclaimed: Grid<bool>,
+    regions: Vec<Region>,
+    noise: Noise,
+    weights: Weights,
+    /// What the regions cover in the second frame, once hidden pixels are excused.
+    cover: Option<Cover>,
+}
+
+impl Layers {
+    /// The start: curves as given, motions as patches propose, every region flat.
+    pub fn new(
+        pair: Rc<FramePair>,
+        camera: Camera,
+        level_sets: Vec<Grid<f32>>,
+        options: &Options,
+    ) -> Self {
+        let mut scales = pyramid(&pair, camera, options.smoothing);
+        let lighting = if options.lighting {
+            Lighting::between(&pair.first().grey, &pair.second().grey)
+        } else {
+            Lighting::default()
+        };
+        for scale in &mut scales {
+            scale.relight(lighting);
+        }
+        let sides = scales.iter().map(|s| s.width().min(s.height()));
+        let schedule = Schedule::new(sides, level_sets.len());
+        let first = &scales[schedule.level];
+        let (width, height) = (first.width(), first.height());
+        let regions = level_sets.len() + 1;
+        let noise = Noise::unknown(regions);
+        let mut layers = Self {
+            pair,
+            smoothing: options.smoothing,
+            lighting,
+            schedule,
+            phi: Vec::new(),
+            labels: Grid::new(width, height, 0),
+            unclaimed: Grid::new(width, height, false),
+            regions: vec![Region::new(width, height); regions],
+            cover: None,
+            weights: Weights::of_layers(noise.sigma, false, options),
+            noise,
+            scales,
+        };
+        layers.place_curves(level_sets);
+        layers.propose_motions(0);
+        layers
+    }
+
+    /// Motions for the regions from label `first` on: what most patches agree on, and inside each curve
+    /// what that leaves over.
+    fn propose_motions(&mut self, first: usize) {
+        if first >= self.regions.len() {
+            return;
+        }
+        let patches = start::patches(&self.scales, self.schedule.level);
+        if patches.is_empty() {
+            return;
+        }
+        let camera = self.here().camera;
+        let within = |k: usize| -> Vec<f64> {
+            let inside = |p: &Patch| self.labels[(p.x as usize, p.y as usize)] == k as u8;
+            patches.iter().map(|p| f64::from(inside(p))).collect()
+        };
+        // Curves are drawn where a person saw something else move.
+        let outside: Vec<f64> = within(0).iter().map(|w| 0.3 + 0.7 * w).collect();
+        let background = start::dominant(&camera, &patches, &outside);
+        let motions: Vec<_> = (first..self.regions.len())
+            .map(|k| match k {
+                0 => background,
+                _ => start::inside(&camera, &patches, &within(k), &background),
+            })
+            .collect();
+        for (region, motion) in self.regions[first..].iter_mut().zip(motions) {
+            region.motion = motion;
+        }
+    }
+
+    /// Level sets of the frame's size brought to the scale at work.
+    fn place_curves(&mut self, mut level_sets: Vec<Grid<f32>>) {
+        for _ in 0..self.schedule.level {
+            for phi in &mut level_sets {
+                *phi = halved(phi).map(|p| 0.5 * p);
+            }
+        }
+        self.labels = curves::labels(&level_sets, self.labels.width(), self.labels.height());
+        self.phi = level_sets;
+    }
+
+    fn here(&self) -> &Scale {
+        &self.scales[self.schedule.level]
+    }
+
+    fn prior(&self, k: usize, evidence: &Evidence, options: &Options) -> FieldPrior {
+        let stiffness = match options.mu {
+            Some(_) => 1.0,
+            None => self.regions[k].stiffness,
+        };
+        FieldPrior {
+            diffusion: options.diffusion,
+            strength: self.weights.mu * stiffness,
+            epsilon: options.epsilon * f64::from(1u32 << self.schedule.level),
+            relief: evidence.relief_prior(),
+        }
+    }
+
+    /// Where region k is computed: everywhere while curves may still leap anywhere.
+    fn window(&self, k: usize) -> Window {
+        let whole = self.here().whole();
+        if self.schedule.roams() || k == 0 {
+            return whole;
+        }
+        let owned = |i: usize| usize::from(self.labels.data()[i]) == k;
+        Window::around(whole.width, whole.height, MARGIN, owned).unwrap_or(whole)
+    }
+
+    /// What region k is to be fitted to, in its window.
+    fn evidence(&self, k: usize, window: Window, options: &Options) -> Evidence<'_> {
+        let owned = Grid::from_fn(window.width, window.height, |x, y| {
+            let at = (window.left + x, window.top + y);
+            if usize::from(self.labels[at]) == k {
+                1.0
+            } else if self.unclaimed[at] && self.distance(k, at) < OFFERED.0 {
+                OFFERED.1
+            } else {
+                0.0
+            }
+        });
+        Evidence {
+            scale: self.here(),
+            window,
+            owned,
+            sigma: self.weights.sigma,
+            spread: self.noise.regions[k].max(self.weights.sigma),
+            robust: options.robust,
+        }
+    }
+
+    /// Pixels from `at` to region k.
+    fn distance(&self, k: usize, at: (usize, usize)) -> f32 {
+        match k {
+            0 => self
+                .phi
+                .iter()
+                .fold(f32::NEG_INFINITY, |d, phi| d.max(phi[at])),
+            _ => -self.phi[k - 1][at],
+        }
+    }
+
+    /// Calls `improve` with every region that still owns pixels, and what it is to be fitted to.
+    fn each_region(
+        &mut self,
+        options: &Options,
+        improve: impl Fn(&mut Region, &Evidence, &FieldPrior),
+    ) {
+        let pixels = pixels(&self.labels, self.regions.len());
+        for k in 0..self.regions.len() {
+            if pixels[k] < FEWEST {
+                continue;
+            }
+            let window = self.window(k);
+            let evidence = self.evidence(k, window, options);
+            let mut part = self.regions[k].cropped(&window);
+            let prior = self.prior(k, &evidence, options);
+            improve(&mut part, &evidence, &prior);
+            let line = evidence.linearise(&part);
+            let certain = certainty(&line, &evidence.weights(&line));
+            self.regions[k].take(&part, &window, &certain);
+        }
+    }
+
+    fn measure_lighting(&mut self, options: &Options) {
+        let windows = (0..self.regions.len()).map(|k| (k, self.window(k)));
+        let change = change_of_light(windows.map(|(k, window)| {
+            let region = self.regions[k].cropped(&window);
+            (region, self.evidence(k, window, options))
+        }));
+        if let Some(change) = change {
+            self.lighting = self.lighting.then(change);
+            for scale in &mut self.scales {
+                scale.relight(change);
+            }
+        }
+    }
+
+    /// Brings everything to the scale that has been reached.
+    fn refine(&mut self) {
+        let (width, height) = (self.here().width(), self.here().height());
+        for phi in &mut self.phi {
+            *phi = doubled(phi, width, height).map(|p| 2.0 * p);
+        }
+        for region in &mut self.regions {
+            region.rho = doubled(&region.rho, width, height);
+            region.shade = doubled(&region.shade, width, height);
+        }
+        self.labels = curves::labels(&self.phi, width, height);
+        self.unclaimed = Grid::new(width, height, false);
+    }
+
+    /// A field of the scale at work at the frame's size.
+    fn at_full_size(&self, field: &Grid<f32>) -> Grid<f32> {
+        let mut field = field.clone();
+        for finer in (0..self.schedule.level).rev() {
+            let scale = &self.scales[finer];
+            field = doubled(&field, scale.width(), scale.height());
+        }
+        field
+    }
+}

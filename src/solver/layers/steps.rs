@@ -1,0 +1,201 @@
+//! The steps of a pass of the coarse-to-fine solver: motion, depth, curves, and the way to the next scale.
+
+use super::Layers;
+use crate::camera::RigidMotion;
+use crate::curves::{self, Measure};
+use crate::energy::Energy;
+use crate::grid::Grid;
+use crate::interpretation::Interpretation;
+use crate::motion::Kind;
+use crate::occlusion::Cover;
+use crate::options::{MotionMethod, Options};
+use crate::solver::approach::Approach;
+use crate::solver::composition::{Layer, composed};
+use crate::solver::region::Region;
+use crate::solver::weights::Weights;
+use crate::solver::{choice, rivalry, stiffness};
+use crate::warp::pyramid;
+
+/// Joint steps in a pass.
+const JOINT_STEPS: usize = 2;
+impl Approach for Layers {
+    fn find_motions(&mut self, options: &Options) {
+        if self.weights.sigma.is_infinite() {
+            let lines = self.linearisations();
+            self.measure_noise(&lines, options);
+        }
+        let schedule = self.schedule;
+        if schedule.deep().is_none() {
+            if !schedule.begins() {
+                self.each_region(options, |region, evidence, _| {
+                    for _ in 0..JOINT_STEPS {
+                        region.fit_flat(evidence);
+                    }
+                });
+            }
+            return;
+        }
+        self.each_region(options, |region, evidence, prior| {
+            if options.motion == MotionMethod::LeastSquares {
+                region.fit_flat(evidence);
+                region.normalise(&evidence.owned);
+                return;
+            }
+            if options.search && schedule.searches() {
+                region.search(evidence, prior);
+            }
+            for _ in 0..JOINT_STEPS {
+                region.fit_jointly(evidence, prior);
+                region.normalise(&evidence.owned);
+            }
+            if options.search && schedule.chooses_relief() && region.kind == Kind::Full {
+                *region = choice::in_relief(region, evidence, prior, schedule.reliefs());
+            }
+            if options.choose_kind && schedule.chooses() {
+                *region = choice::chosen(region, evidence, prior, schedule.reliefs());
+            }
+        });
+    }
+
+    fn find_depth(&mut self, options: &Options) {
+        if self.schedule.deep().is_some() {
+            let learns = options.mu.is_none() && self.schedule.learns();
+            self.each_region(options, |region, evidence, prior| {
+                if learns {
+                    region.stiffness = stiffness::supported(region, evidence, prior);
+                }
+                region.fit_depth(evidence, prior);
+                region.normalise(&evidence.owned);
+                if options.lighting {
+                    region.shade = evidence.shade(region);
+                }
+            });
+        }
+    }
+
+    fn move_curves(&mut self, options: &Options) {
+        let lines = self.linearisations();
+        self.measure_noise(&lines, options);
+        if self.phi.is_empty() {
+            return;
+        }
+        let xi = self.residuals(&lines, options);
+        if !(options.occlusion && self.schedule.excuses()) {
+            self.cover = None;
+        } else if self.cover.is_none() || !self.schedule.holds_cover() {
+            let measure = self.measure(options);
+            self.cover = Some(rivalry::cover(&lines, &xi, &self.labels, &measure));
+        }
+        let xi = self.competition(xi, &lines, options);
+        if self.schedule.settled() {
+            curves::evolve(&mut self.phi, &xi, self.weights.lambda, options.curve_steps);
+        } else {
+            self.phi = curves::threshold(&xi, self.schedule.window());
+        }
+        if options.islands && self.schedule.deep().is_some() {
+            curves::without_islands(&mut self.phi);
+        }
+        self.labels = curves::labels(&self.phi, self.labels.width(), self.labels.height());
+        self.unclaimed = rivalry::unexplained(&xi, &self.labels, self.weights.sigma);
+    }
+
+    fn end_pass(&mut self, _still: bool, options: &Options) -> bool {
+        if options.lighting && self.schedule.relights() {
+            self.measure_lighting(options);
+        }
+        if self.schedule.advance() {
+            self.refine();
+        }
+        self.schedule.unfinished()
+    }
+
+    fn reconsider(&mut self, options: &Options) {
+        if options.smoothing != self.smoothing {
+            self.smoothing = options.smoothing;
+            self.scales = pyramid(&self.pair, self.scales[0].camera, options.smoothing);
+            for scale in &mut self.scales {
+                scale.relight(self.lighting);
+            }
+        }
+        self.weights = Weights::of_layers(self.noise.sigma, self.schedule.settled(), options);
+    }
+
+    fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>) {
+        let (width, height) = (self.labels.width(), self.labels.height());
+        let known = self.regions.len();
+        // The search for motions and threshold dynamics, which end with a scale's first passes, are
+        // needed again.
+        self.schedule.restart();
+        self.regions
+            .resize(level_sets.len() + 1, Region::new(width, height));
+        for region in &mut self.regions {
+            region.stiffness = 1.0;
+        }
+        self.noise.regions.resize(level_sets.len() + 1, 0.0);
+        self.cover = None;
+        self.unclaimed.data_mut().fill(false);
+        self.place_curves(level_sets);
+        self.propose_motions(known);
+    }
+
+    fn energy(&self, options: &Options) -> Energy {
+        self.energy_in_pixels(options)
+    }
+
+    fn labels(&self) -> &Grid<u8> {
+        &self.labels
+    }
+
+    fn level_sets(&self) -> Vec<Grid<f32>> {
+        let side = (1u32 << self.schedule.level) as f32;
+        let each = self.phi.iter();
+        each.map(|phi| self.at_full_size(phi).map(|p| side * p))
+            .collect()
+    }
+
+    fn motions(&self) -> Vec<(RigidMotion, Kind)> {
+        let camera = self.scales[0].camera;
+        let each = self.regions.iter();
+        each.map(|r| (r.motion, r.kind.min(Kind::seen(&camera, &r.motion))))
+            .collect()
+    }
+
+    fn behind(&self) -> Vec<Vec<usize>> {
+        self.cover.as_ref().map_or_else(Vec::new, Cover::behind)
+    }
+
+    fn weights(&self) -> Weights {
+        self.weights
+    }
+
+    fn scale(&self) -> (usize, usize) {
+        (self.schedule.level, self.schedule.start + 1)
+    }
+
+    fn flat(&self) -> bool {
+        self.schedule.deep().is_none()
+    }
+
+    fn interpretation(&self) -> Interpretation {
+        let read: Vec<Layer> = self
+            .regions
+            .iter()
+            .zip(self.motions())
+            .map(|(region, (motion, kind))| Layer {
+                motion,
+                kind,
+                rho: self.at_full_size(&region.rho),
+            })
+            .collect();
+        composed(
+            &self.scales[0],
+            &self.level_sets(),
+            &read,
+            &Measure {
+                sigma: self.weights.sigma,
+                gradient_sigma: Some(self.noise.gradient),
+                normalised: true,
+            },
+        )
+    }
+}
