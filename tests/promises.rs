@@ -73,3 +73,32 @@ fn turning_bodies_are_not_taken_for_their_mirror_images() {
         assert!(angle < 6.0, "T of region {k} is off by {angle}°");
     }
 }
+
+#[test]
+fn what_leaves_the_frame_is_hidden() {
+    let sequence = scene::render("flight", 160, 120).unwrap();
+    let found = solved(&sequence, best(), |v| v).interpretation();
+    let (right, bottom) = (159.0, 119.0);
+    let mut left = 0;
+    for i in 0..found.labels.len() {
+        let (x, y) = ((i % 160) as f32, (i / 160) as f32);
+        let (x, y) = (x + found.flow.u.data()[i], y + found.flow.v.data()[i]);
+        if x < -0.5 || y < -0.5 || x > right + 0.5 || y > bottom + 0.5 {
+            left += 1;
+            assert!(found.occluded.data()[i] > 0, "({x}, {y}) is out of sight");
+            assert_eq!(found.confidence.data()[i], 0.0);
+        }
+    }
+    assert!(left > 50, "only {left} pixels leave the frame");
+}
+
+#[test]
+fn larger_frames_of_the_same_scene_have_the_same_regions() {
+    let [small, large] = [(144, 108), (288, 216)].map(|(width, height)| {
+        let sequence = scene::render("blocks", width, height).unwrap();
+        solved(&sequence, best(), |v| v).interpretation().labels
+    });
+    let halved = Grid::from_fn(144, 108, |x, y| large[(2 * x, 2 * y)]);
+    let differ = differing(&small, &halved);
+    assert!(differ < 0.025, "{differ} of all labels differ");
+}

@@ -29,6 +29,8 @@ pub struct Recorded {
 enum Curve {
     None,
     Circle([f64; 3]),
+    /// Left, top, right and bottom.
+    Box([f64; 4]),
     /// A circle in the middle of what is labelled 1, with a third of its area.
     Labelled,
 }
@@ -49,9 +51,10 @@ pub struct Reading {
 
 /// All of them.
 pub static RECORDED: [Recorded; 5] = [
-    // The sky is not rigid, and its flow not known.
+    // The clouds are not rigid, and their flow not known; a curve around them leaves the ground to itself.
     Recorded {
         frames: ["frame09.png", "frame10.png"],
+        curve: Curve::Box([4.0, 4.0, 312.0, 50.0]),
         flow: Some("flow09.flo"),
         ..plain("yosemite", 337.0)
     },
@@ -162,6 +165,9 @@ impl Curve {
         match *self {
             Self::None => None,
             Self::Circle([x, y, r]) => Some(Shape::Circle { x, y, r }),
+            Self::Box([left, top, right, bottom]) => Some(Shape::Polygon {
+                points: vec![[left, top], [right, top], [right, bottom], [left, bottom]],
+            }),
             Self::Labelled => Some(middle(labels)),
         }
     }
