@@ -26,9 +26,9 @@ const EXCUSING: usize = 2;
 const RELIGHTING: usize = 2;
 /// Passes in which T is looked for over all directions.
 const SEARCHING: usize = 2;
-/// Depths of relief that a full motion is tried with; only the first, its mirror image, where depth has been
-/// found on a coarser scale.
-const RELIEFS: [f64; 4] = [-1.0, 0.4, 2.5, -2.5];
+/// Depths of relief that a full motion is tried with; only the first two, its mirror image and a deeper one,
+/// where depth has been found on a coarser scale: what is coarse looks flat.
+const RELIEFS: [f64; 4] = [-1.0, 2.0, 0.4, -2.0];
 /// Standard deviation of threshold dynamics' window in pixels: at first, with depth, and what it falls by in
 /// a pass in between.
 const WINDOW: [f64; 3] = [2.5, 1.8, 0.25];
@@ -126,7 +126,7 @@ impl Schedule {
     /// Depths of relief that a full motion is tried with then.
     pub fn reliefs(&self) -> &'static [f64] {
         if self.level == 0 && (self.start > 0 || self.at_least(CHOOSING_AGAIN)) {
-            &RELIEFS[..1]
+            &RELIEFS[..2]
         } else {
             &RELIEFS
         }
