@@ -5,6 +5,7 @@ mod contour;
 mod evolution;
 mod islands;
 mod redistance;
+mod relaxation;
 mod shape;
 mod threshold;
 
@@ -13,5 +14,6 @@ pub use contour::{Contour, contours};
 pub use evolution::{evolve, labels, length};
 pub use islands::without_islands;
 pub use redistance::redistance;
+pub use relaxation::least_partition;
 pub use shape::Shape;
 pub use threshold::threshold;

@@ -20,6 +20,8 @@ const CHOOSING: usize = 2;
 const CHOOSING_AGAIN: usize = THRESHOLD_PASSES + 3;
 /// The pass on the finest scale in which regions find out how stiff their depth is.
 const LEARNING: usize = CHOOSING_AGAIN;
+/// The passes on the finest scale in which all curves move at once to the least partition.
+const REPARTITIONING: [usize; 2] = [THRESHOLD_PASSES, CHOOSING_AGAIN + 1];
 /// The pass on the finest scale from which hidden pixels are excused: earlier, regions would collapse.
 const EXCUSING: usize = 2;
 /// The pass of a scale after which the change of light is measured.
@@ -87,6 +89,14 @@ impl Schedule {
     /// Whether regions are where they should be, to the pixel.
     pub fn settled(&self) -> bool {
         self.at_least(THRESHOLD_PASSES)
+    }
+
+    /// Whether all curves move at once to the least partition.
+    pub fn repartitions(&self) -> bool {
+        self.level == 0
+            && self
+                .deep()
+                .is_some_and(|deep| REPARTITIONING.contains(&deep))
     }
 
     /// Whether regions find out how stiff their depth is.

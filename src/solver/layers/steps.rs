@@ -87,7 +87,9 @@ impl Approach for Layers {
             self.cover = Some(rivalry::cover(&lines, &xi, &self.labels, &measure));
         }
         let xi = self.competition(xi, &lines, options);
-        if self.schedule.settled() {
+        if self.schedule.repartitions() {
+            self.phi = curves::least_partition(&xi, self.weights.lambda, &self.labels);
+        } else if self.schedule.settled() {
             curves::evolve(&mut self.phi, &xi, self.weights.lambda, options.curve_steps);
         } else {
             self.phi = curves::threshold(&xi, self.schedule.window());
