@@ -39,7 +39,7 @@ fn energy(phi: &[Grid<f32>], xi: &[Grid<f32>], lambda: f64) -> f64 {
 }
 
 fn partition(phi: &[Grid<f32>], xi: &[Grid<f32>], lambda: f64) -> Vec<Grid<f32>> {
-    least_partition(xi, lambda, &labels(phi, W, H))
+    least_partition(phi, xi, lambda, f32::INFINITY)
 }
 
 #[test]
@@ -139,6 +139,17 @@ fn without_length_every_pixel_goes_to_the_least_residual() {
             assert_eq!(found[(x, y)] == 1, ragged(x, y), "({x}, {y})");
         }
     }
+}
+
+#[test]
+fn a_region_grows_no_farther_than_its_reach_and_gives_up_any_distance() {
+    let (start, reach) = (circle(30.0, 30.0, 9.0), 2.0);
+    let [free, taken] = [0.0f32, 3.0].map(|own| [Grid::new(W, H, 1.0f32), Grid::new(W, H, own)]);
+    let grown = least_partition(std::slice::from_ref(&start), &free, 0.1, reach);
+    let radius = (owned(&labels(&grown, W, H), 1) as f64 / std::f64::consts::PI).sqrt();
+    assert!((radius - 11.0).abs() < 0.4, "radius {radius}");
+    let left = least_partition(&[start], &taken, 0.1, reach);
+    assert_eq!(owned(&labels(&left, W, H), 1), 0);
 }
 
 #[test]

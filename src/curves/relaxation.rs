@@ -7,11 +7,13 @@
 //! ```
 //!
 //! (17) walks: a lobe that a curve has grown, wide and with little in it to hold it there, takes hundreds of
-//! steps to draw in. Relaxed to shares uk between 0 and 1 the same functional is convex (Zach et al., VMV 2008;
-//! Lellmann and Schnörr 2011), and primal-dual steps (Chambolle and Pock 2011, τ² ‖∇‖² ≤ 1 with ‖∇‖² ≤ 8) lead
-//! to its minimum from anywhere. ξ in grey levels², λ in grey levels²·px. Stops when no pixel's greatest
-//! share has changed hands in [`PATIENCE`] steps, or after [`MOST_STEPS`].
+//! steps to draw in. Here it goes at once; growing is held to a reach, since what a region would leap to often
+//! has its motion but is not part of it, like a shadow. Relaxed to shares uk between 0 and 1 the functional is
+//! convex (Zach et al. 2008; Lellmann and Schnörr 2011), and primal-dual steps (Chambolle and Pock 2011,
+//! τ² ‖∇‖² ≤ 1 with ‖∇‖² ≤ 8) lead to its minimum from anywhere. ξ in grey levels², λ in grey levels²·px. Stops
+//! when no pixel's greatest share has changed hands in [`PATIENCE`] steps, or after [`MOST_STEPS`].
 
+use super::evolution::labels;
 use super::redistance::redistance;
 use crate::grid::Grid;
 
@@ -21,46 +23,56 @@ const STEP: f32 = 0.35;
 const PATIENCE: usize = 25;
 /// Most steps.
 const MOST_STEPS: usize = 400;
+/// What a pixel beyond reach costs, in units of λ: more than any neighbours could make up for.
+const OUT_OF_REACH: f32 = 1e12;
 
-/// The level sets of labels 1… of the least partition, looked for from `labels`: signed distances in pixels,
-/// φ > 0 inside. `xi[0]` is the background's residual.
-pub fn least_partition(xi: &[Grid<f32>], lambda: f64, labels: &Grid<u8>) -> Vec<Grid<f32>> {
-    let (width, height, regions) = (labels.width(), labels.height(), xi.len());
-    let scale = (lambda as f32).max(1e-6).recip();
-    let each = || vec![Grid::new(width, height, 0.0f32); regions];
-    let mut shares = each();
-    for (i, &k) in labels.data().iter().enumerate() {
+/// The level sets of labels 1… of the least partition, signed distances in pixels, φ > 0 inside. It is looked
+/// for from `phi`, beyond whose curves regions grow by at most `reach` pixels. `xi[0]` is the background's
+/// residual.
+pub fn least_partition(
+    phi: &[Grid<f32>],
+    xi: &[Grid<f32>],
+    lambda: f64,
+    reach: f32,
+) -> Vec<Grid<f32>> {
+    let (width, height, regions) = (xi[0].width(), xi[0].height(), xi.len());
+    let mut owners = labels(phi, width, height);
+    let mut shares = vec![Grid::new(width, height, 0.0f32); regions];
+    for (i, &k) in owners.data().iter().enumerate() {
         shares[usize::from(k)].data_mut()[i] = 1.0;
     }
+    let scale = (lambda as f32).max(1e-6).recip();
+    let mut costs: Vec<Grid<f32>> = xi.iter().map(|xi| xi.map(|xi| scale * xi)).collect();
+    for (cost, phi) in costs[1..].iter_mut().zip(phi) {
+        for (cost, &phi) in cost.data_mut().iter_mut().zip(phi.data()) {
+            if phi < -reach {
+                *cost = OUT_OF_REACH;
+            }
+        }
+    }
+    // Elsewhere everything is the background's, and stays so.
+    let open: Vec<usize> = (0..width * height)
+        .filter(|&i| phi.iter().any(|phi| phi.data()[i] >= -reach))
+        .collect();
+    let edges = with_neighbours_before(&open, width);
     let mut ahead = shares.clone();
     let mut duals = vec![Grid::new(width, height, [0.0f32; 2]); regions - 1];
-    let mut owners = labels.clone();
     let mut here = vec![0.0f32; regions];
     for step in 1..=MOST_STEPS {
         for (dual, share) in duals.iter_mut().zip(&ahead[1..]) {
-            climb(dual, share);
+            climb(dual, share, &edges);
         }
-        for y in 0..height {
-            for x in 0..width {
-                let i = y * width + x;
-                here[0] = shares[0].data()[i] - STEP * scale * xi[0].data()[i];
-                for k in 1..regions {
-                    let p = &duals[k - 1];
-                    let mut divergence = p.data()[i][0] + p.data()[i][1];
-                    if x > 0 {
-                        divergence -= p.data()[i - 1][0];
-                    }
-                    if y > 0 {
-                        divergence -= p.data()[i - width][1];
-                    }
-                    here[k] = shares[k].data()[i] + STEP * (divergence - scale * xi[k].data()[i]);
-                }
-                to_simplex(&mut here);
-                for k in 0..regions {
-                    let share = &mut shares[k].data_mut()[i];
-                    ahead[k].data_mut()[i] = 2.0 * here[k] - *share;
-                    *share = here[k];
-                }
+        for &i in &open {
+            here[0] = shares[0].data()[i] - STEP * costs[0].data()[i];
+            for k in 1..regions {
+                let pull = divergence(&duals[k - 1], i) - costs[k].data()[i];
+                here[k] = shares[k].data()[i] + STEP * pull;
+            }
+            to_simplex(&mut here);
+            for k in 0..regions {
+                let share = &mut shares[k].data_mut()[i];
+                ahead[k].data_mut()[i] = 2.0 * here[k] - *share;
+                *share = here[k];
             }
         }
         if step % PATIENCE == 0 {
@@ -74,25 +86,41 @@ pub fn least_partition(xi: &[Grid<f32>], lambda: f64, labels: &Grid<u8>) -> Vec<
     (1..regions).map(|k| boundary(&shares, k)).collect()
 }
 
-/// A dual step with λ = 1: up the gradient of `share`, forward differences, none across the frame's border.
-fn climb(dual: &mut Grid<[f32; 2]>, share: &Grid<f32>) {
-    let (width, height) = (share.width(), share.height());
+/// Pixels `open` and those left of and above them, in order, each once.
+fn with_neighbours_before(open: &[usize], width: usize) -> Vec<usize> {
+    let left = open.iter().filter(|&&i| i % width > 0).map(|i| i - 1);
+    let above = open.iter().filter(|&&i| i >= width).map(|i| i - width);
+    let mut all: Vec<usize> = open.iter().copied().chain(left).chain(above).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// A dual step with λ = 1 at pixels `at`: up the gradient of `share`, forward differences, none across the
+/// frame's border.
+fn climb(dual: &mut Grid<[f32; 2]>, share: &Grid<f32>, at: &[usize]) {
+    let width = share.width();
     let u = share.data();
-    for y in 0..height {
-        for x in 0..width {
-            let i = y * width + x;
-            let [px, py] = &mut dual.data_mut()[i];
-            if x + 1 < width {
-                *px += STEP * (u[i + 1] - u[i]);
-            }
-            if y + 1 < height {
-                *py += STEP * (u[i + width] - u[i]);
-            }
-            let length = px.hypot(*py).max(1.0);
-            *px /= length;
-            *py /= length;
+    for &i in at {
+        let [px, py] = &mut dual.data_mut()[i];
+        if i % width + 1 < width {
+            *px += STEP * (u[i + 1] - u[i]);
         }
+        if i + width < u.len() {
+            *py += STEP * (u[i + width] - u[i]);
+        }
+        let length = px.hypot(*py).max(1.0);
+        *px /= length;
+        *py /= length;
     }
+}
+
+/// div p at pixel `i`: backward differences.
+fn divergence(dual: &Grid<[f32; 2]>, i: usize) -> f32 {
+    let (p, width) = (dual.data(), dual.width());
+    let left = if i % width > 0 { p[i - 1][0] } else { 0.0 };
+    let above = if i >= width { p[i - width][1] } else { 0.0 };
+    p[i][0] - left + p[i][1] - above
 }
 
 /// The nearest point with parts that are not negative and add up to 1 (Michelot 1986).

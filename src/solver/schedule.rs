@@ -20,7 +20,8 @@ const CHOOSING: usize = 2;
 const CHOOSING_AGAIN: usize = THRESHOLD_PASSES + 3;
 /// The pass on the finest scale in which regions find out how stiff their depth is.
 const LEARNING: usize = CHOOSING_AGAIN;
-/// The passes on the finest scale in which all curves move at once to the least partition.
+/// The passes on the finest scale in which all curves move at once to the least partition: before (17) takes
+/// over, and once kinds of motion are final.
 const REPARTITIONING: [usize; 2] = [THRESHOLD_PASSES, CHOOSING_AGAIN + 1];
 /// The pass on the finest scale from which hidden pixels are excused: earlier, regions would collapse.
 const EXCUSING: usize = 2;

@@ -18,6 +18,9 @@ use crate::warp::pyramid;
 
 /// Joint steps in a pass.
 const JOINT_STEPS: usize = 2;
+/// Pixels by which a region grows when all curves move to the least partition.
+const REACH: f32 = 1.0;
+
 impl Approach for Layers {
     fn find_motions(&mut self, options: &Options) {
         if self.weights.sigma.is_infinite() {
@@ -88,7 +91,7 @@ impl Approach for Layers {
         }
         let xi = self.competition(xi, &lines, options);
         if self.schedule.repartitions() {
-            self.phi = curves::least_partition(&xi, self.weights.lambda, &self.labels);
+            self.phi = curves::least_partition(&self.phi, &xi, self.weights.lambda, REACH);
         } else if self.schedule.settled() {
             curves::evolve(&mut self.phi, &xi, self.weights.lambda, options.curve_steps);
         } else {
