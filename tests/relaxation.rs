@@ -52,7 +52,7 @@ fn a_disc_stays_or_goes_as_its_length_and_its_area_say_from_any_start() {
         circle(-30.0, 0.0, 5.0),
         circle(20.0, 20.0, 9.0),
     ] {
-        let kept = partition(&[start.clone()], &xi, 5.0);
+        let kept = partition(std::slice::from_ref(&start), &xi, 5.0);
         let found = labels(&kept, W, H);
         let truth = labels(&disc, W, H);
         let wrong = found
@@ -130,7 +130,7 @@ fn several_regions_part_the_frame_between_them() {
 
 #[test]
 fn without_length_every_pixel_goes_to_the_least_residual() {
-    let ragged = |x: usize, y: usize| (x * 7 + y * 13) % 5 == 0;
+    let ragged = |x: usize, y: usize| (x * 7 + y * 13).is_multiple_of(5);
     let own = Grid::from_fn(W, H, |x, y| if ragged(x, y) { 0.0 } else { 2.0f32 });
     let xi = [Grid::new(W, H, 1.0f32), own];
     let found = labels(&partition(&[circle(30.0, 30.0, 9.0)], &xi, 0.0), W, H);

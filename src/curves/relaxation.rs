@@ -88,7 +88,10 @@ pub fn least_partition(
 
 /// Pixels `open` and those left of and above them, in order, each once.
 fn with_neighbours_before(open: &[usize], width: usize) -> Vec<usize> {
-    let left = open.iter().filter(|&&i| i % width > 0).map(|i| i - 1);
+    let left = open
+        .iter()
+        .filter(|i| !i.is_multiple_of(width))
+        .map(|i| i - 1);
     let above = open.iter().filter(|&&i| i >= width).map(|i| i - width);
     let mut all: Vec<usize> = open.iter().copied().chain(left).chain(above).collect();
     all.sort_unstable();
@@ -118,7 +121,11 @@ fn climb(dual: &mut Grid<[f32; 2]>, share: &Grid<f32>, at: &[usize]) {
 /// div p at pixel `i`: backward differences.
 fn divergence(dual: &Grid<[f32; 2]>, i: usize) -> f32 {
     let (p, width) = (dual.data(), dual.width());
-    let left = if i % width > 0 { p[i - 1][0] } else { 0.0 };
+    let left = if i.is_multiple_of(width) {
+        0.0
+    } else {
+        p[i - 1][0]
+    };
     let above = if i >= width { p[i - width][1] } else { 0.0 };
     p[i][0] - left + p[i][1] - above
 }
