@@ -3,20 +3,14 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
+mod discs;
+
 use std::f64::consts::PI;
 
 use relievo::curves::{contours, evolve, labels, length, redistance};
 use relievo::{Error, Grid, Shape};
 
-const W: usize = 64;
-const H: usize = 56;
-
-fn circle(x: f64, y: f64, r: f64) -> Grid<f32> {
-    let shape = Shape::Circle { x, y, r };
-    Grid::from_fn(W, H, |px, py| {
-        shape.signed_distance(px as f64, py as f64) as f32
-    })
-}
+use discs::{H, W, circle, residuals, wrong};
 
 fn pixels() -> impl Iterator<Item = (usize, usize)> {
     (0..W * H).map(|i| (i % W, i / W))
@@ -172,20 +166,6 @@ fn a_straight_edge_has_no_curvature_and_stays() {
     assert!(moved.fold(0.0, f32::max) < 0.05);
 }
 
-/// Residuals of 1 that drop to 0 inside `shapes[k − 1]` for region k, and outside all for region 0.
-fn residuals(shapes: &[Grid<f32>]) -> Vec<Grid<f32>> {
-    let truth = labels(shapes, W, H);
-    (0..=shapes.len())
-        .map(|k| truth.map(|l| if usize::from(l) == k { 0.0 } else { 1.0 }))
-        .collect()
-}
-
-fn wrong(found: &[Grid<f32>], truth: &[Grid<f32>]) -> f64 {
-    let (found, truth) = (labels(found, W, H), labels(truth, W, H));
-    let pairs = found.data().iter().zip(truth.data());
-    pairs.filter(|(a, b)| a != b).count() as f64 / (W * H) as f64
-}
-
 #[test]
 fn a_curve_grows_and_shrinks_onto_what_its_region_explains() {
     let disc = [circle(34.0, 26.0, 14.0)];
@@ -196,7 +176,7 @@ fn a_curve_grows_and_shrinks_onto_what_its_region_explains() {
     ] {
         let mut phi = [start];
         for _ in 0..4 {
-            evolve(&mut phi, &residuals(&disc), 0.05, 20);
+            evolve(&mut phi, &residuals(&disc, 1.0), 0.05, 20);
         }
         let wrong = wrong(&phi, &disc);
         assert!(wrong < 0.005, "{wrong} wrong");
@@ -217,7 +197,7 @@ fn several_curves_settle_side_by_side() {
         circle(33.0, 40.0, 12.0),
     ];
     for _ in 0..4 {
-        evolve(&mut phi, &residuals(&discs), 0.05, 20);
+        evolve(&mut phi, &residuals(&discs, 1.0), 0.05, 20);
     }
     let wrong = wrong(&phi, &discs);
     assert!(wrong < 0.01, "{wrong} wrong");
@@ -227,7 +207,7 @@ fn several_curves_settle_side_by_side() {
 fn what_a_far_region_explains_better_is_not_thrown_to_the_background() {
     // By chance the second region explains part of the first disc even better, but its curve is far away.
     let discs = [circle(20.0, 26.0, 12.0), circle(50.0, 26.0, 7.0)];
-    let mut xi = residuals(&discs);
+    let mut xi = residuals(&discs, 1.0);
     for (x, y) in pixels() {
         if discs[0][(x, y)] > 0.0 {
             xi[1][(x, y)] = 0.01;
@@ -279,7 +259,7 @@ fn brightness_units_do_not_matter() {
     let disc = [circle(34.0, 26.0, 14.0)];
     let run = |unit: f32| {
         let mut phi = [circle(28.0, 22.0, 9.0)];
-        let xi: Vec<_> = residuals(&disc)
+        let xi: Vec<_> = residuals(&disc, 1.0)
             .iter()
             .map(|x| x.map(|x| unit * x))
             .collect();

@@ -11,16 +11,17 @@
 //! has its motion but is not part of it, like a shadow. Relaxed to shares uk between 0 and 1 the functional is
 //! convex (Zach et al. 2008; Lellmann and Schnörr 2011), and primal-dual steps (Chambolle and Pock 2011,
 //! τ² ‖∇‖² ≤ 1 with ‖∇‖² ≤ 8) lead to its minimum from anywhere. ξ in grey levels², λ in grey levels²·px. Stops
-//! when no pixel's greatest share has changed hands in [`PATIENCE`] steps, or after [`MOST_STEPS`].
+//! when shares move by less than [`STILL`] pixels in a step, all in all, or after [`MOST_STEPS`].
 
 use super::evolution::labels;
 use super::redistance::redistance;
 use crate::grid::Grid;
+use crate::window::Window;
 
 /// τ of shares and duals in units of λ, τ² ‖∇‖² ≤ 1.
 const STEP: f32 = 0.35;
-/// Steps between looks at who owns what.
-const PATIENCE: usize = 25;
+/// Change of shares in a step, summed over the frame, that counts as standing still.
+const STILL: f32 = 0.1;
 /// Most steps.
 const MOST_STEPS: usize = 400;
 /// What a pixel beyond reach costs, in units of λ: more than any neighbours could make up for.
@@ -35,22 +36,43 @@ pub fn least_partition(
     lambda: f64,
     reach: f32,
 ) -> Vec<Grid<f32>> {
-    let (width, height, regions) = (xi[0].width(), xi[0].height(), xi.len());
-    let mut owners = labels(phi, width, height);
+    let (width, height) = (xi[0].width(), xi[0].height());
+    let within_reach = |i: usize| phi.iter().any(|phi| phi.data()[i] >= -reach);
+    // Elsewhere everything is the background's, and stays so.
+    let Some(window) = Window::around(width, height, 1, within_reach) else {
+        return phi.to_vec();
+    };
+    let crop = |grids: &[Grid<f32>]| -> Vec<_> { grids.iter().map(|g| window.crop(g)).collect() };
+    let shares = relaxed(&crop(phi), crop(xi), lambda, reach);
+    (1..shares.len())
+        .map(|k| {
+            let mut phi = Grid::new(width, height, -1.0);
+            window.paste(&lead(&shares, k), &mut phi);
+            redistance(&mut phi);
+            phi
+        })
+        .collect()
+}
+
+/// The shares uk of the minimum.
+fn relaxed(
+    phi: &[Grid<f32>],
+    mut costs: Vec<Grid<f32>>,
+    lambda: f64,
+    reach: f32,
+) -> Vec<Grid<f32>> {
+    let (width, height, regions) = (costs[0].width(), costs[0].height(), costs.len());
     let mut shares = vec![Grid::new(width, height, 0.0f32); regions];
-    for (i, &k) in owners.data().iter().enumerate() {
+    for (i, &k) in labels(phi, width, height).data().iter().enumerate() {
         shares[usize::from(k)].data_mut()[i] = 1.0;
     }
     let scale = (lambda as f32).max(1e-6).recip();
-    let mut costs: Vec<Grid<f32>> = xi.iter().map(|xi| xi.map(|xi| scale * xi)).collect();
-    for (cost, phi) in costs[1..].iter_mut().zip(phi) {
-        for (cost, &phi) in cost.data_mut().iter_mut().zip(phi.data()) {
-            if phi < -reach {
-                *cost = OUT_OF_REACH;
-            }
+    for (k, cost) in costs.iter_mut().enumerate() {
+        for (i, cost) in cost.data_mut().iter_mut().enumerate() {
+            let barred = k > 0 && phi[k - 1].data()[i] < -reach;
+            *cost = if barred { OUT_OF_REACH } else { *cost * scale };
         }
     }
-    // Elsewhere everything is the background's, and stays so.
     let open: Vec<usize> = (0..width * height)
         .filter(|&i| phi.iter().any(|phi| phi.data()[i] >= -reach))
         .collect();
@@ -58,10 +80,11 @@ pub fn least_partition(
     let mut ahead = shares.clone();
     let mut duals = vec![Grid::new(width, height, [0.0f32; 2]); regions - 1];
     let mut here = vec![0.0f32; regions];
-    for step in 1..=MOST_STEPS {
+    for _ in 0..MOST_STEPS {
         for (dual, share) in duals.iter_mut().zip(&ahead[1..]) {
             climb(dual, share, &edges);
         }
+        let mut moved = 0.0;
         for &i in &open {
             here[0] = shares[0].data()[i] - STEP * costs[0].data()[i];
             for k in 1..regions {
@@ -71,19 +94,16 @@ pub fn least_partition(
             to_simplex(&mut here);
             for k in 0..regions {
                 let share = &mut shares[k].data_mut()[i];
+                moved += (here[k] - *share).abs();
                 ahead[k].data_mut()[i] = 2.0 * here[k] - *share;
                 *share = here[k];
             }
         }
-        if step % PATIENCE == 0 {
-            let now = greatest(&shares);
-            if now.data() == owners.data() {
-                break;
-            }
-            owners = now;
+        if moved < STILL {
+            break;
         }
     }
-    (1..regions).map(|k| boundary(&shares, k)).collect()
+    shares
 }
 
 /// Pixels `open` and those left of and above them, in order, each once.
@@ -149,28 +169,12 @@ fn to_simplex(point: &mut [f32]) {
     }
 }
 
-/// Whose share is the greatest.
-fn greatest(shares: &[Grid<f32>]) -> Grid<u8> {
-    let (width, height) = (shares[0].width(), shares[0].height());
-    Grid::from_fn(width, height, |x, y| {
-        let mut best = 0;
-        for k in 1..shares.len() {
-            if shares[k][(x, y)] > shares[best][(x, y)] {
-                best = k;
-            }
-        }
-        best as u8
-    })
-}
-
-/// The level set of region `k`: where its share equals the greatest other.
-fn boundary(shares: &[Grid<f32>], k: usize) -> Grid<f32> {
-    let mut phi = shares[k].clone();
-    for (i, p) in phi.data_mut().iter_mut().enumerate() {
+/// How far the share of region `k` is ahead of the greatest other.
+fn lead(shares: &[Grid<f32>], k: usize) -> Grid<f32> {
+    let mut lead = shares[k].clone();
+    for (i, lead) in lead.data_mut().iter_mut().enumerate() {
         let others = shares.iter().enumerate().filter(|(j, _)| *j != k);
-        let rival = others.fold(0.0f32, |most, (_, s)| most.max(s.data()[i]));
-        *p -= rival;
+        *lead -= others.fold(0.0f32, |most, (_, s)| most.max(s.data()[i]));
     }
-    redistance(&mut phi);
-    phi
+    lead
 }

@@ -179,6 +179,12 @@ static CATALOGUE: &[Descriptor] = &[
         "Keep curves in one piece: islands and small holes go. Coarse to fine only.",
         "step 3",
     ),
+    toggle(
+        "partition",
+        "Least partition",
+        "Draw in at once, twice, what is not worth its outline, instead of step by step. Coarse to fine only.",
+        "step 3",
+    ),
     Descriptor {
         key: "depth_steps",
         label: "Depth steps",

@@ -115,6 +115,8 @@ pub struct Options {
     pub occlusion: bool,
     /// Whether a curve bounds one thing, without islands.
     pub islands: bool,
+    /// Whether curves are taken to the least partition before (17) moves them.
+    pub partition: bool,
     /// Passes after which the solver gives up.
     pub max_passes: usize,
     /// Share of pixels that may still change region in a pass that counts as still.
@@ -144,6 +146,7 @@ impl Options {
                 gradients: true,
                 occlusion: true,
                 islands: true,
+                partition: true,
                 max_passes: 40,
                 preset,
                 ..Self::preset(Preset::Paper)
@@ -168,6 +171,7 @@ impl Options {
                 gradients: false,
                 occlusion: false,
                 islands: false,
+                partition: false,
                 max_passes: 150,
                 tolerance: 2e-4,
             },

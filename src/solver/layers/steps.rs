@@ -90,7 +90,7 @@ impl Approach for Layers {
             self.cover = Some(rivalry::cover(&lines, &xi, &self.labels, &measure));
         }
         let xi = self.competition(xi, &lines, options);
-        if self.schedule.repartitions() {
+        if options.partition && self.schedule.repartitions() {
             self.phi = curves::least_partition(&self.phi, &xi, self.weights.lambda, REACH);
         } else if self.schedule.settled() {
             curves::evolve(&mut self.phi, &xi, self.weights.lambda, options.curve_steps);
