@@ -260,6 +260,30 @@ fn the_report_says_after_which_pass_a_finer_scale_began() {
 }
 
 #[test]
+fn the_report_says_after_which_pass_energy_became_another_sum() {
+    let sequence = squares();
+    let mut solver = start(&sequence, &sequence.curves, best());
+    while solver.report().settled.is_empty() {
+        solver.step();
+    }
+    assert_eq!(solver.report().settled, [solver.iterations()]);
+    assert!(
+        solver
+            .report()
+            .refined
+            .iter()
+            .all(|&p| p < solver.iterations())
+    );
+    let before = solver.report().weights.mu;
+    solver.step();
+    let report = solver.report();
+    assert!(report.weights.mu < 0.5 * before);
+    assert_eq!(report.settled.len(), 1);
+    solver.reset();
+    assert!(solver.report().settled.is_empty());
+}
+
+#[test]
 fn looking_on_changes_nothing() {
     let sequence = squares();
     let mut watched = start(&sequence, &sequence.curves, best());

@@ -65,12 +65,17 @@ fn another_light_leaves_regions_where_they_are() {
 
 #[test]
 fn turning_bodies_are_not_taken_for_their_mirror_images() {
-    let sequence = scene::render("carousel", 272, 204).unwrap();
-    let found = solved(&sequence, best(), |v| v).interpretation();
-    let scores = compare(&found, &sequence.truth).unwrap();
-    for (k, angle) in scores.translation_angle.iter().enumerate().skip(1) {
-        let angle = angle.unwrap();
-        assert!(angle < 6.0, "T of region {k} is off by {angle}°");
+    // The second has a body that looks too flat on the coarse scale, where its mirror image fits better.
+    for sequence in [
+        scene::render("carousel", 272, 204).unwrap(),
+        scene::variant("carousel", 6001, 1.0, 2.0, 320, 240).unwrap(),
+    ] {
+        let found = solved(&sequence, best(), |v| v).interpretation();
+        let scores = compare(&found, &sequence.truth).unwrap();
+        for (k, angle) in scores.translation_angle.iter().enumerate().skip(1) {
+            let angle = angle.unwrap();
+            assert!(angle < 6.0, "T of region {k} is off by {angle}°");
+        }
     }
 }
 

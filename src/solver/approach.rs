@@ -53,6 +53,11 @@ pub(super) trait Approach {
     /// The scale at work, 0 the finest, and the number of scales.
     fn scale(&self) -> (usize, usize);
 
+    /// Whether curves are where they should be, to the pixel, so that other weights and another ξ hold.
+    fn settled(&self) -> bool {
+        false
+    }
+
     /// Whether regions are taken for flat as yet, so that step 2 leaves depth alone.
     fn flat(&self) -> bool;
 

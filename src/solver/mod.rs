@@ -71,6 +71,8 @@ pub struct Solver {
     history: Vec<f64>,
     /// Passes that had been made when each finer scale was reached.
     refined: Vec<usize>,
+    /// Passes that had been made each time that curves had settled.
+    settled: Vec<usize>,
     /// Passes that had been made when the curves were drawn last.
     drawn_at: usize,
     still: usize,
@@ -103,6 +105,7 @@ impl Solver {
             status: Status::Running,
             history: Vec::new(),
             refined: Vec::new(),
+            settled: Vec::new(),
             drawn_at: 0,
             still: 0,
             seconds: Seconds::default(),
@@ -132,17 +135,17 @@ impl Solver {
         let after = self.approach.labels();
         let changed = before.data().iter().zip(after.data());
         let changed = changed.filter(|(a, b)| a != b).count() as f64 / before.len() as f64;
-        let settled = self
+        let level = self
             .history
             .last()
             .is_some_and(|e| (e - energy).abs() <= STILL_ENERGY * e.abs());
-        self.still = if settled && changed <= self.options.tolerance {
+        self.still = if level && changed <= self.options.tolerance {
             self.still + 1
         } else {
             0
         };
         self.history.push(energy);
-        let scale = self.approach.scale();
+        let (scale, settled) = (self.approach.scale(), self.approach.settled());
         if self
             .approach
             .end_pass(self.still >= STILL_PASSES, &self.options)
@@ -151,6 +154,9 @@ impl Solver {
         }
         if self.approach.scale() != scale {
             self.refined.push(self.history.len());
+        }
+        if self.approach.settled() && !settled {
+            self.settled.push(self.history.len());
         }
         self.status = if !energy.is_finite() {
             Status::Diverged
@@ -259,6 +265,7 @@ impl Solver {
         self.approach = begin(&self.pair, self.camera, level_sets, &self.options);
         self.history.clear();
         self.refined.clear();
+        self.settled.clear();
         self.drawn_at = 0;
         self.seconds = Seconds::default();
         self.resume();

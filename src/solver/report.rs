@@ -53,10 +53,13 @@ pub struct Report {
     pub flat: bool,
     /// The terms of (7).
     pub energy: Terms,
-    /// Total energy after each pass; comparable between passes of one scale.
+    /// Total energy after each pass; comparable between passes of one scale, before and after curves settle.
     pub history: Vec<f64>,
     /// Passes that had been made when each finer scale was reached.
     pub refined: Vec<usize>,
+    /// Passes that had been made each time that curves had settled: from then on brightness alone competes,
+    /// and μ is less.
+    pub settled: Vec<usize>,
     /// Every region, the background first.
     pub regions: Vec<RegionReport>,
     /// The weights in force.
@@ -122,6 +125,7 @@ impl Report {
             },
             history: solver.history.clone(),
             refined: solver.refined.clone(),
+            settled: solver.settled.clone(),
             warnings: warnings(&regions),
             regions,
             weights: solver.approach.weights(),

@@ -99,7 +99,7 @@ test("where a finer scale begins is marked on the energy and said", async ({ ope
   await expect(page.locator("#status")).toContainText("scale 2/2");
   const plot = page.getByRole("img", { name: "Energy after each pass" });
   await expect(plot).toHaveAccessibleDescription(
-    /on scale 1, from .* on scale 2\..*a finer scale begins/,
+    /on scale 1, from .* on scale 2[.,].*a finer scale begins/,
   );
 });
 
@@ -122,6 +122,9 @@ test("runs to an end by itself and says which", async ({ opened: page }) => {
   await page.getByRole("button", { name: "Run" }).click();
   await until(page, (state) => state.report !== null && state.report.status !== "running");
   await expect(page.locator("#status")).toContainText(/Converged|Out of iterations/);
+  await expect(
+    page.getByRole("img", { name: "Energy after each pass" }),
+  ).toHaveAccessibleDescription(/on scale 2, from .* once curves had settled\./);
   await expect(page.getByRole("button", { name: "Run" })).toBeVisible();
   await expect(page.locator("#announcer")).toContainText(/passes/);
 });

@@ -1,8 +1,8 @@
 /**
  * The functional (7) falling, pass by pass.
  *
- * A finer scale has other pixels, smoothed less: its energy is another sum, so the line is broken where one
- * begins.
+ * A finer scale has other pixels, smoothed less, and settled curves are weighed otherwise: energy is another
+ * sum from there on, so the line is broken.
  */
 
 import uPlot from "uplot";
@@ -77,7 +77,7 @@ export function rebuild(): void {
           points: { show: (_, __, first, last) => first === last, size: 6 },
         },
       ],
-      hooks: { draw: [markScales] },
+      hooks: { draw: [markBreaks] },
     },
     dataOf(store.state),
     place,
@@ -90,12 +90,36 @@ const WHOLE = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 const labels = (_: uPlot, values: (number | null)[]) =>
   values.map((value) => (value === null ? "" : compact(value)));
 
-/** Passes and their energy, with nothing in between where a finer scale begins. */
+interface Break {
+  /** Passes that had been made. */
+  after: number;
+  /** What began, beside the line and in a sentence. */
+  name: string;
+  place: string;
+}
+
+/** Where energy became another sum, as far as a pass has been made since. */
+function breaks({ refined, settled, history }: Report): Break[] {
+  const finer = refined.map((after, i) => {
+    const name = `scale ${i + 2}`;
+    return { after, name, place: ` on ${name}` };
+  });
+  const still = settled.map((after) => ({
+    after,
+    name: "settled",
+    place: " once curves had settled",
+  }));
+  const all = [...finer, ...still].sort((a, b) => a.after - b.after);
+  return all.filter(({ after }) => after < history.length);
+}
+
+/** Passes and their energy, with nothing in between where it became another sum. */
 function dataOf({ report }: Readonly<State>): uPlot.AlignedData {
+  const broken = new Set(report ? breaks(report).map(({ after }) => after) : []);
   const passes: number[] = [];
   const energies: (number | null)[] = [];
   for (const [i, energy] of (report?.history ?? []).entries()) {
-    if (report!.refined.includes(i)) {
+    if (broken.has(i)) {
       passes.push(i + 0.5);
       energies.push(null);
     }
@@ -105,8 +129,8 @@ function dataOf({ report }: Readonly<State>): uPlot.AlignedData {
   return [passes, energies];
 }
 
-/** A dashed line where a finer scale begins, and above it which it is. */
-function markScales(chart: uPlot): void {
+/** A dashed line where energy became another sum, and above it what began: names of scales end there, others start. */
+function markBreaks(chart: uPlot): void {
   const { ctx, bbox } = chart;
   const { report } = store.state;
   const ratio = window.devicePixelRatio || 1;
@@ -115,35 +139,33 @@ function markScales(chart: uPlot): void {
   ctx.lineWidth = ratio;
   ctx.setLineDash([3 * ratio, 3 * ratio]);
   ctx.font = `${11 * ratio}px system-ui, sans-serif`;
-  ctx.textAlign = "center";
   ctx.textBaseline = "bottom";
-  for (const [i, pass] of (report ? begun(report) : []).entries()) {
-    const x = Math.round(chart.valToPos(pass + 0.5, "x", true));
+  for (const { after, name } of report ? breaks(report) : []) {
+    const x = Math.round(chart.valToPos(after + 0.5, "x", true));
     ctx.beginPath();
     ctx.moveTo(x, bbox.top);
     ctx.lineTo(x, bbox.top + bbox.height);
     ctx.stroke();
-    const name = `scale ${i + 2}`;
-    const room = bbox.left + bbox.width - ctx.measureText(name).width / 2;
-    ctx.fillText(name, Math.min(x, room), bbox.top - 3 * ratio);
+    const gap = 3 * ratio;
+    const before = name.startsWith("scale");
+    ctx.textAlign = before ? "right" : "left";
+    ctx.fillText(name, before ? x + gap : x - gap, bbox.top - gap);
   }
   ctx.restore();
 }
-
-/** Passes after which finer scales began, as far as one of theirs is over. */
-const begun = ({ refined, history }: Report) => refined.filter((pass) => pass < history.length);
 
 function inWords({ report }: Readonly<State>): string {
   if (!report) return "";
   const { data, smoothness, length, total } = report.energy;
   const part = (value: number) => percent(value / (total || 1), 0);
   const left = `Of what is left, ${part(data)} is misfit of the frames, ${part(smoothness)} depth's roughness, ${part(length)} length of curves.`;
-  const ends = begun(report);
+  const begun = breaks(report);
   const fall = (start: number, end: number | undefined, place: string) => {
     const last = end === undefined ? total : report.history[end - 1]!;
     return `from ${number(report.history[start] ?? total)} to ${number(last)}${place}`;
   };
-  if (ends.length === 0) return `${sentence(fall(0, undefined, ""))} ${left}`;
-  const falls = [0, ...ends].map((start, i) => fall(start, ends[i], ` on scale ${i + 1}`));
-  return `${sentence(falls.join(", "))} ${left} A dashed line is where a finer scale begins: other pixels are summed up, so energy can be compared only within a scale.`;
+  if (begun.length === 0) return `${sentence(fall(0, undefined, ""))} ${left}`;
+  const parts = [{ after: 0, place: " on scale 1" }, ...begun];
+  const falls = parts.map(({ after, place }, i) => fall(after, parts[i + 1]?.after, place));
+  return `${sentence(falls.join(", "))} ${left} A dashed line is where a finer scale begins, with other pixels, or where curves have settled, with other weights: energy can be compared only between two lines.`;
 }

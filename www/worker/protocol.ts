@@ -80,6 +80,8 @@ export interface Report {
   history: number[];
   /** Passes that had been made when each finer scale was reached. */
   refined: number[];
+  /** Passes that had been made each time that curves had settled. */
+  settled: number[];
   regions: Region[];
   /** The weights in use, those chosen from the data included. */
   weights: Record<string, number>;

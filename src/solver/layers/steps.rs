@@ -177,6 +177,10 @@ impl Approach for Layers {
         (self.schedule.level, self.schedule.start + 1)
     }
 
+    fn settled(&self) -> bool {
+        self.schedule.settled()
+    }
+
     fn flat(&self) -> bool {
         self.schedule.deep().is_none()
     }
