@@ -138,41 +138,6 @@ impl Grid<f32> {
         let bottom = self.clamped(x0, y0 + 1) * (1.0 - fx) + self.clamped(x0 + 1, y0 + 1) * fx;
         top * (1.0 - fy) + bottom * fy
     }
-
-    /// The value at real coordinates by Catmull–Rom cubics, exact for quadratics; the border is
-    /// continued outwards.
-    pub fn cubic(&self, x: f32, y: f32) -> f32 {
-        let (x0, y0) = (x.floor(), y.floor());
-        let (wx, wy) = (cubic_weights(x - x0), cubic_weights(y - y0));
-        let (x0, y0) = (x0 as isize - 1, y0 as isize - 1);
-        let within =
-            x0 >= 0 && y0 >= 0 && x0 + 3 < self.width as isize && y0 + 3 < self.height as isize;
-        let mut sum = 0.0;
-        for (j, wy) in wy.into_iter().enumerate() {
-            let y = y0 + j as isize;
-            let across = if within {
-                let start = y as usize * self.width + x0 as usize;
-                let four = &self.data[start..start + 4];
-                wx[0] * four[0] + wx[1] * four[1] + wx[2] * four[2] + wx[3] * four[3]
-            } else {
-                let at = |i: isize| self.clamped(x0 + i, y);
-                wx[0] * at(0) + wx[1] * at(1) + wx[2] * at(2) + wx[3] * at(3)
-            };
-            sum += wy * across;
-        }
-        sum
-    }
-}
-
-/// Catmull–Rom weights of the four pixels around a point at fraction `t` past the second.
-fn cubic_weights(t: f32) -> [f32; 4] {
-    let (t2, t3) = (t * t, t * t * t);
-    [
-        0.5 * (-t3 + 2.0 * t2 - t),
-        0.5 * (3.0 * t3 - 5.0 * t2 + 2.0),
-        0.5 * (-3.0 * t3 + 4.0 * t2 + t),
-        0.5 * (t3 - t2),
-    ]
 }
 
 impl<T> Index<(usize, usize)> for Grid<T> {

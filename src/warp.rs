@@ -12,7 +12,7 @@
 //! Grey levels throughout; x' in pixels from the principal point.
 
 use crate::camera::{Camera, RigidMotion};
-use crate::frames::{FramePair, Lighting, blur, gradient, halved, halved_camera};
+use crate::frames::{FramePair, Lighting, Spline, blur, gradient, halved, halved_camera};
 use crate::grid::Grid;
 use crate::window::Window;
 
@@ -34,6 +34,8 @@ pub struct Scale {
     pub first: Grid<f32>,
     /// Brightness of the second frame.
     pub second: Grid<f32>,
+    /// The second frame between its pixels.
+    pub between: Spline,
     /// ∂/∂x and ∂/∂y of the first frame.
     pub first_gradient: (Grid<f32>, Grid<f32>),
     /// ∂/∂x and ∂/∂y of the second frame.
@@ -70,6 +72,7 @@ impl Scale {
             first_gradient,
             second_gradient: gradient(&second),
             bend,
+            between: Spline::through(&second),
             camera,
             first,
             second,
@@ -144,7 +147,7 @@ impl Scale {
                     0.5 * (self.first_gradient.0[here] + self.second_gradient.0.bilinear(qx, qy));
                 let iy =
                     0.5 * (self.first_gradient.1[here] + self.second_gradient.1.bilinear(qx, qy));
-                let residual = self.second.cubic(qx, qy) - self.first[here];
+                let residual = self.between.at(qx, qy) - self.first[here];
                 let e = x * ix + y * iy;
                 let s = glam::Vec3::new(f * ix, f * iy, -e);
                 let near = rho * over;

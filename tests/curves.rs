@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use relievo::curves::{contours, evolve, labels, length, redistance};
 use relievo::{Error, Grid, Shape};
 
-use discs::{H, W, circle, residuals, wrong};
+use discs::{H, W, circle, everywhere, residuals, wrong};
 
 fn pixels() -> impl Iterator<Item = (usize, usize)> {
     (0..W * H).map(|i| (i % W, i / W))
@@ -131,7 +131,7 @@ fn each_pixel_has_the_label_of_the_curve_it_is_deepest_in() {
 
 #[test]
 fn no_curve_leaves_the_background_alone() {
-    evolve(&mut [], &[Grid::new(W, H, 1.0f32)], 1.0, 20);
+    evolve(&mut [], &[Grid::new(W, H, 1.0f32)], &everywhere(1.0), 20);
     assert!(labels(&[], W, H).data().iter().all(|&l| l == 0));
 }
 
@@ -143,7 +143,12 @@ fn length_alone_shrinks_a_circle_by_its_curvature() {
     let mut lost = Vec::new();
     for _ in 0..5 {
         let before = area(&phi[0]);
-        evolve(&mut phi, &[same.clone(), same.clone()], 3.0, 20);
+        evolve(
+            &mut phi,
+            &[same.clone(), same.clone()],
+            &everywhere(3.0),
+            20,
+        );
         lost.push(before - area(&phi[0]));
     }
     let mean = lost.iter().sum::<f64>() / 5.0;
@@ -161,7 +166,7 @@ fn a_straight_edge_has_no_curvature_and_stays() {
     let line = Grid::from_fn(W, H, |x, _| 20.6 - x as f32);
     let mut phi = [line.clone()];
     let same = Grid::new(W, H, 4.0f32);
-    evolve(&mut phi, &[same.clone(), same], 3.0, 40);
+    evolve(&mut phi, &[same.clone(), same], &everywhere(3.0), 40);
     let moved = pixels().map(|at| (phi[0][at] - line[at]).abs());
     assert!(moved.fold(0.0, f32::max) < 0.05);
 }
@@ -176,7 +181,7 @@ fn a_curve_grows_and_shrinks_onto_what_its_region_explains() {
     ] {
         let mut phi = [start];
         for _ in 0..4 {
-            evolve(&mut phi, &residuals(&disc, 1.0), 0.05, 20);
+            evolve(&mut phi, &residuals(&disc, 1.0), &everywhere(0.05), 20);
         }
         let wrong = wrong(&phi, &disc);
         assert!(wrong < 0.005, "{wrong} wrong");
@@ -197,7 +202,7 @@ fn several_curves_settle_side_by_side() {
         circle(33.0, 40.0, 12.0),
     ];
     for _ in 0..4 {
-        evolve(&mut phi, &residuals(&discs, 1.0), 0.05, 20);
+        evolve(&mut phi, &residuals(&discs, 1.0), &everywhere(0.05), 20);
     }
     let wrong = wrong(&phi, &discs);
     assert!(wrong < 0.01, "{wrong} wrong");
@@ -222,7 +227,7 @@ fn what_a_far_region_explains_better_is_not_thrown_to_the_background() {
     let mut phi = discs.clone();
     for _ in 0..4 {
         let before = cost(&phi);
-        evolve(&mut phi, &xi, 1e-3, 20);
+        evolve(&mut phi, &xi, &everywhere(1e-3), 20);
         let after = cost(&phi);
         assert!(
             after <= 1.01 * before + 1.0,
@@ -247,7 +252,7 @@ fn a_larger_length_weight_gives_a_shorter_curve() {
     let xi = [noisy(0), noisy(1)];
     let lengths = [0.001, 0.3, 3.0].map(|lambda| {
         let mut phi = [circle(32.0, 27.0, 15.0)];
-        evolve(&mut phi, &xi, lambda, 40);
+        evolve(&mut phi, &xi, &everywhere(lambda), 40);
         length(&phi[0])
     });
     assert!(lengths.is_sorted_by(|a, b| a > b), "{lengths:?}");
@@ -263,7 +268,7 @@ fn brightness_units_do_not_matter() {
             .iter()
             .map(|x| x.map(|x| unit * x))
             .collect();
-        evolve(&mut phi, &xi, f64::from(unit) * 0.1, 15);
+        evolve(&mut phi, &xi, &everywhere(unit * 0.1), 15);
         phi
     };
     let [a, b] = [run(1.0), run(256.0)];

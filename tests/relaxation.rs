@@ -8,7 +8,7 @@ mod discs;
 use relievo::Grid;
 use relievo::curves::{evolve, labels, least_partition, length, redistance};
 
-use discs::{H, W, circle, residuals, wrong};
+use discs::{H, W, circle, everywhere, residuals, wrong};
 
 /// Pixels inside the only curve.
 fn owned(phi: &[Grid<f32>]) -> usize {
@@ -26,7 +26,7 @@ fn energy(phi: &[Grid<f32>], xi: &[Grid<f32>], lambda: f64) -> f64 {
 }
 
 fn partition(phi: &[Grid<f32>], xi: &[Grid<f32>], lambda: f64) -> Vec<Grid<f32>> {
-    least_partition(phi, xi, lambda, f32::INFINITY)
+    least_partition(phi, xi, &everywhere(lambda as f32), f32::INFINITY)
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn a_lobe_with_little_in_it_is_drawn_in_at_once() {
     let mut walked = [grown.clone()];
     redistance(&mut walked[0]);
     let before = left(&walked);
-    evolve(&mut walked, &xi, 2.0, 20);
+    evolve(&mut walked, &xi, &everywhere(2.0), 20);
     let at_once = partition(&[grown], &xi, 2.0);
     assert!(
         before > 400 && left(&walked) > before / 2,
@@ -118,13 +118,16 @@ fn without_length_every_pixel_goes_to_the_least_residual() {
 fn a_region_grows_no_farther_than_its_reach_and_gives_up_any_distance() {
     let (start, reach) = (circle(30.0, 30.0, 9.0), 2.0);
     let [free, taken] = [0.0f32, 3.0].map(|own| [Grid::new(W, H, 1.0f32), Grid::new(W, H, own)]);
-    let grown = least_partition(std::slice::from_ref(&start), &free, 0.1, reach);
+    let grown = least_partition(std::slice::from_ref(&start), &free, &everywhere(0.1), reach);
     let radius = (owned(&grown) as f64 / std::f64::consts::PI).sqrt();
     assert!((radius - 11.0).abs() < 0.4, "radius {radius}");
-    let left = least_partition(&[start], &taken, 0.1, reach);
+    let left = least_partition(&[start], &taken, &everywhere(0.1), reach);
     assert_eq!(owned(&left), 0);
     // What is gone does not come back.
-    assert_eq!(owned(&least_partition(&left, &free, 0.1, reach)), 0);
+    assert_eq!(
+        owned(&least_partition(&left, &free, &everywhere(0.1), reach)),
+        0
+    );
 }
 
 #[test]

@@ -2,11 +2,12 @@
 //!
 //! ```text
 //! (17)  ∂γk/∂t = −( ξk − min_{j≠k} ξj + λκ ) n
-//!       ∂φk/∂t = −( ξk − min_{j≠k} ξj ) |∇φk| + λ div(∇φk/|∇φk|) |∇φk|
+//!       ∂φk/∂t = −( ξk − min_{j≠k} ξj ) |∇φk| + λ div(∇φk/|∇φk|) |∇φk| + ∇λ·∇φk
 //! ```
 //!
-//! ξ in grey levels² (ψ² in the paper), λ in grey levels²·px. The data part is upwind (Godunov), the
-//! curvature central. The time step comes from the 70th percentile of speed along the curves: one set
+//! ξ in grey levels² (ψ² in the paper), λ in grey levels²·px. λ may differ from place to place (`geodesic.rs`):
+//! the last term, nought in the paper, takes curves to where it is less. The data part is upwind (Godunov), and
+//! so is that term, the curvature central. The time step comes from the 70th percentile of speed along the curves: one set
 //! by the fastest pixel would pin all others. Faster pixels are held to [`FASTEST`]. Stops after the
 //! number of steps asked for; redistances every few of them, and works on a band around the curve.
 
@@ -24,15 +25,15 @@ const BAND: (f32, usize) = (6.0, 5);
 const REACH: f32 = 2.0;
 
 /// Moves the level sets `phi` (of labels 1…) by `steps` steps of (17). `xi[j]` is region j's residual,
-/// `xi[0]` the background's.
-pub fn evolve(phi: &mut [Grid<f32>], xi: &[Grid<f32>], lambda: f64, steps: usize) {
+/// `xi[0]` the background's; `lambda` is what a pixel of curve costs at every place.
+pub fn evolve(phi: &mut [Grid<f32>], xi: &[Grid<f32>], lambda: &Grid<f32>, steps: usize) {
     let speeds: Vec<Grid<f32>> = (1..xi.len()).map(|k| speed(phi, xi, k)).collect();
     let Some(typical) = typical_speed(phi, &speeds) else {
         return;
     };
-    let lambda = lambda as f32;
+    let most = lambda.data().iter().copied().fold(1e-12, f32::max);
     // Central curvature is stable up to λ dt = 1/4.
-    let dt = (TYPICAL / typical.max(1e-12)).min(0.2 / lambda.max(1e-12));
+    let dt = (TYPICAL / typical.max(1e-12)).min(0.2 / most);
     for (phi, speed) in phi.iter_mut().zip(&speeds) {
         let mut band = Vec::new();
         for step in 0..steps {
@@ -68,13 +69,22 @@ pub fn labels(phi: &[Grid<f32>], width: usize, height: usize) -> Grid<u8> {
 
 /// Length of the zero line of φ in pixels: ∫ δ(φ) |∇φ|, δ being a hat one pixel wide on each side.
 pub fn length(phi: &Grid<f32>) -> f64 {
+    weighed(phi, |_| 1.0)
+}
+
+/// What the zero line of φ costs where a pixel of it costs `lambda`, grey levels²·px.
+pub fn cost(phi: &Grid<f32>, lambda: &Grid<f32>) -> f64 {
+    weighed(phi, |at| lambda[at])
+}
+
+fn weighed(phi: &Grid<f32>, weight: impl Fn((usize, usize)) -> f32) -> f64 {
     let mut sum = 0.0;
     for y in 0..phi.height() {
         for x in 0..phi.width() {
             let p = phi[(x, y)];
             if p.abs() < 1.0 {
                 let (gx, gy) = central(phi, x, y);
-                sum += f64::from((1.0 - p.abs()) * gx.hypot(gy));
+                sum += f64::from((1.0 - p.abs()) * gx.hypot(gy) * weight((x, y)));
             }
         }
     }
@@ -122,13 +132,34 @@ fn inside_band(phi: &Grid<f32>) -> Vec<(usize, usize)> {
         .collect()
 }
 
-fn advance(phi: &mut Grid<f32>, speed: &Grid<f32>, band: &[(usize, usize)], dt: f32, lambda: f32) {
+fn advance(
+    phi: &mut Grid<f32>,
+    speed: &Grid<f32>,
+    band: &[(usize, usize)],
+    dt: f32,
+    lambda: &Grid<f32>,
+) {
     let before = phi.clone();
     for &(x, y) in band {
         let advance = (dt * speed[(x, y)]).clamp(-FASTEST, FASTEST);
         let data = advance * upwind(&before, x, y, advance);
-        phi[(x, y)] += dt * lambda * bend(&before, x, y) - data;
+        let length = lambda[(x, y)] * bend(&before, x, y) + slide(&before, lambda, x, y);
+        phi[(x, y)] += dt * length - data;
     }
+}
+
+/// ∇λ·∇φ, the latter from the side that it is carried from, up λ's slope.
+fn slide(phi: &Grid<f32>, lambda: &Grid<f32>, x: usize, y: usize) -> f32 {
+    let (lx, ly) = central(lambda, x, y);
+    let (x, y) = (x as isize, y as isize);
+    let step = |slope: f32, dx: isize, dy: isize| {
+        if slope > 0.0 {
+            phi.clamped(x + dx, y + dy) - phi.clamped(x, y)
+        } else {
+            phi.clamped(x, y) - phi.clamped(x - dx, y - dy)
+        }
+    };
+    lx * step(lx, 1, 0) + ly * step(ly, 0, 1)
 }
 
 /// |∇φ| taken from the side that information comes from, for ∂φ/∂t = −F |∇φ|.

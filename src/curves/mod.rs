@@ -3,6 +3,7 @@
 mod competition;
 mod contour;
 mod evolution;
+mod geodesic;
 mod islands;
 mod redistance;
 mod relaxation;
@@ -11,7 +12,8 @@ mod threshold;
 
 pub use competition::Measure;
 pub use contour::{Contour, contours};
-pub use evolution::{evolve, labels, length};
+pub use evolution::{cost, evolve, labels, length};
+pub use geodesic::edge_weight;
 pub use islands::without_islands;
 pub use redistance::redistance;
 pub use relaxation::least_partition;

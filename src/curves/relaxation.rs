@@ -1,7 +1,7 @@
 //! The least partition: all curves at once to where (7), with ξ as it is, is least.
 //!
 //! ```text
-//! min  Σk ∫ uk ξk dx + λ Σ_{k≥1} ∫ ‖∇uk‖ dx        uk ≥ 0, Σk uk = 1
+//! min  Σk ∫ uk ξk dx + Σ_{k≥1} ∫ λ ‖∇uk‖ dx          uk ≥ 0, Σk uk = 1
 //! u    ← P( u + τ ( div p − ξ ) )                   P: the nearest point of the simplex
 //! pk   ← Q( pk + τ ∇( 2 u − u_before )k )           Q: ‖pk‖ ≤ λ, and p0 = 0
 //! ```
@@ -10,7 +10,8 @@
 //! steps to draw in. Here it goes at once; growing is held to a reach, since what a region would leap to often
 //! has its motion but is not part of it, like a shadow. Relaxed to shares uk between 0 and 1 the functional is
 //! convex (Zach et al. 2008; Lellmann and Schnörr 2011), and primal-dual steps (Chambolle and Pock 2011,
-//! τ² ‖∇‖² ≤ 1 with ‖∇‖² ≤ 8) lead to its minimum from anywhere. ξ in grey levels², λ in grey levels²·px. Stops
+//! τ² ‖∇‖² ≤ 1 with ‖∇‖² ≤ 8) lead to its minimum from anywhere. ξ in grey levels², λ in grey levels²·px, and
+//! all in units of its mean. Stops
 //! when shares move by less than [`STILL`] pixels in a step, all in all, or after [`MOST_STEPS`].
 
 use super::evolution::labels;
@@ -18,22 +19,22 @@ use super::redistance::redistance;
 use crate::grid::Grid;
 use crate::window::Window;
 
-/// τ of shares and duals in units of λ, τ² ‖∇‖² ≤ 1.
+/// τ of shares and duals, τ² ‖∇‖² ≤ 1.
 const STEP: f32 = 0.35;
 /// Change of shares in a step, summed over the frame, that counts as standing still.
 const STILL: f32 = 0.1;
 /// Most steps.
 const MOST_STEPS: usize = 400;
-/// What a pixel beyond reach costs, in units of λ: more than any neighbours could make up for.
+/// What a pixel beyond reach costs, in units of λ's mean: more than any neighbours could make up for.
 const OUT_OF_REACH: f32 = 1e12;
 
 /// The level sets of labels 1… of the least partition, signed distances in pixels, φ > 0 inside. It is looked
 /// for from `phi`, beyond whose curves regions grow by at most `reach` pixels. `xi[0]` is the background's
-/// residual.
+/// residual, `lambda` what a pixel of curve costs at every place.
 pub fn least_partition(
     phi: &[Grid<f32>],
     xi: &[Grid<f32>],
-    lambda: f64,
+    lambda: &Grid<f32>,
     reach: f32,
 ) -> Vec<Grid<f32>> {
     let (width, height) = (xi[0].width(), xi[0].height());
@@ -43,7 +44,7 @@ pub fn least_partition(
         return phi.to_vec();
     };
     let crop = |grids: &[Grid<f32>]| -> Vec<_> { grids.iter().map(|g| window.crop(g)).collect() };
-    let shares = relaxed(&crop(phi), crop(xi), lambda, reach);
+    let shares = relaxed(&crop(phi), crop(xi), window.crop(lambda), reach);
     (1..shares.len())
         .map(|k| {
             let mut phi = Grid::new(width, height, -1.0);
@@ -58,7 +59,7 @@ pub fn least_partition(
 fn relaxed(
     phi: &[Grid<f32>],
     mut costs: Vec<Grid<f32>>,
-    lambda: f64,
+    mut lambda: Grid<f32>,
     reach: f32,
 ) -> Vec<Grid<f32>> {
     let (width, height, regions) = (costs[0].width(), costs[0].height(), costs.len());
@@ -66,7 +67,9 @@ fn relaxed(
     for (i, &k) in labels(phi, width, height).data().iter().enumerate() {
         shares[usize::from(k)].data_mut()[i] = 1.0;
     }
-    let scale = (lambda as f32).max(1e-6).recip();
+    let sum: f64 = lambda.data().iter().map(|l| f64::from(*l)).sum();
+    let scale = ((sum / lambda.len() as f64) as f32).max(1e-6).recip();
+    lambda.data_mut().iter_mut().for_each(|l| *l *= scale);
     for (k, cost) in costs.iter_mut().enumerate() {
         for (i, cost) in cost.data_mut().iter_mut().enumerate() {
             let barred = k > 0 && phi[k - 1].data()[i] < -reach;
@@ -82,7 +85,7 @@ fn relaxed(
     let mut here = vec![0.0f32; regions];
     for _ in 0..MOST_STEPS {
         for (dual, share) in duals.iter_mut().zip(&ahead[1..]) {
-            climb(dual, share, &edges);
+            climb(dual, share, &lambda, &edges);
         }
         let mut moved = 0.0;
         for &i in &open {
@@ -119,9 +122,9 @@ fn with_neighbours_before(open: &[usize], width: usize) -> Vec<usize> {
     all
 }
 
-/// A dual step with λ = 1 at pixels `at`: up the gradient of `share`, forward differences, none across the
-/// frame's border.
-fn climb(dual: &mut Grid<[f32; 2]>, share: &Grid<f32>, at: &[usize]) {
+/// A dual step at pixels `at`: up the gradient of `share`, forward differences, none across the frame's
+/// border, and back to where ‖p‖ ≤ λ.
+fn climb(dual: &mut Grid<[f32; 2]>, share: &Grid<f32>, lambda: &Grid<f32>, at: &[usize]) {
     let width = share.width();
     let u = share.data();
     for &i in at {
@@ -132,9 +135,11 @@ fn climb(dual: &mut Grid<[f32; 2]>, share: &Grid<f32>, at: &[usize]) {
         if i + width < u.len() {
             *py += STEP * (u[i + width] - u[i]);
         }
-        let length = px.hypot(*py).max(1.0);
-        *px /= length;
-        *py /= length;
+        let (length, most) = (px.hypot(*py), lambda.data()[i]);
+        if length > most {
+            *px *= most / length;
+            *py *= most / length;
+        }
     }
 }
 

@@ -5,9 +5,11 @@ mod frame;
 mod gaussian;
 mod lighting;
 mod pyramid;
+mod spline;
 
 pub use derivatives::{Derivatives, gradient};
 pub use frame::{Frame, FramePair, MAX_SIDE, MIN_SIDE};
 pub use gaussian::blur;
 pub use lighting::Lighting;
 pub use pyramid::{doubled, halved, halved_camera};
+pub use spline::Spline;

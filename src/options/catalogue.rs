@@ -185,6 +185,12 @@ static CATALOGUE: &[Descriptor] = &[
         "Draw in at once, twice, what is not worth its outline, instead of step by step. Coarse to fine only.",
         "step 3",
     ),
+    toggle(
+        "edges",
+        "Outlines on edges",
+        "Let outlines cost less where brightness has an edge: what motion leaves open is decided there. Coarse to fine only.",
+        "λ ∮ds in (7)",
+    ),
     Descriptor {
         key: "depth_steps",
         label: "Depth steps",

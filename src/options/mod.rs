@@ -117,6 +117,8 @@ pub struct Options {
     pub islands: bool,
     /// Whether curves are taken to the least partition before (17) moves them.
     pub partition: bool,
+    /// Whether outlines cost less on edges of brightness.
+    pub edges: bool,
     /// Passes after which the solver gives up.
     pub max_passes: usize,
     /// Share of pixels that may still change region in a pass that counts as still.
@@ -147,6 +149,7 @@ impl Options {
                 occlusion: true,
                 islands: true,
                 partition: true,
+                edges: true,
                 max_passes: 40,
                 preset,
                 ..Self::preset(Preset::Paper)
@@ -172,6 +175,7 @@ impl Options {
                 occlusion: false,
                 islands: false,
                 partition: false,
+                edges: false,
                 max_passes: 150,
                 tolerance: 2e-4,
             },

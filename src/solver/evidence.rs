@@ -4,6 +4,9 @@
 //! motion is wrong, and δ the error of position that a fit is granted. It counts with the weight
 //! σ²/v · (1 + r²/(c² v))⁻², Geman and McClure's: what does not fit at all does not count at all. Pixels that
 //! their owner does not explain are offered to the regions around, at half weight.
+//!
+//! A shadow that passes over the background changes many pixels by less than noise changes one. There the mean
+//! residual over some pixels around counts as well, in the same way and in units of its own spread.
 
 use crate::frames::blur;
 use crate::grid::Grid;
@@ -11,11 +14,14 @@ use crate::warp::{Linearisation, RESIDUAL, Scale};
 use crate::window::Window;
 
 use super::region::Region;
+use super::weights::spread;
 
 /// Error of position granted when motion and depth are fitted, in pixels.
 const POSITION_ERROR: f32 = 0.06;
 /// c: residuals of this many standard deviations count a quarter as much as in least squares.
 const ROBUST: f32 = 3.0;
+/// Standard deviation of the window over which residuals are averaged to find shadows, in pixels.
+const SHADOW: f64 = 4.0;
 /// Standard deviation of f·ω known beforehand, in pixels at the finest scale's width of 320.
 const ROTATION_SPREAD: f64 = 8.0;
 /// Smoothness of a change of brightness, in pixels, and the weight below which it is not known.
@@ -38,6 +44,8 @@ pub(super) struct Evidence<'a> {
     /// The same of the region's own residual as it is, not less: large as long as its motion is wrong.
     pub spread: f64,
     pub robust: bool,
+    /// Whether shadows may pass over the region.
+    pub shadowed: bool,
 }
 
 impl Evidence<'_> {
@@ -79,6 +87,34 @@ impl Evidence<'_> {
                     *w /= (1.0 + r * r / (ROBUST * ROBUST * own)).powi(2);
                 }
             }
+        }
+        weight
+    }
+
+    /// The weights that motion and depth are fitted with: ω, less where residuals are off together.
+    pub fn fitting_weights(&self, linearisation: &Linearisation) -> Grid<f32> {
+        let mut weight = self.weights(linearisation);
+        if !(self.robust && self.shadowed) {
+            return weight;
+        }
+        let most = ROBUST * self.spread as f32;
+        let mut count = self.owned.clone();
+        let mut mean = self.owned.clone();
+        for (i, (mean, count)) in mean.data_mut().iter_mut().zip(count.data_mut()).enumerate() {
+            let seen = f32::from(linearisation.inside.data()[i]);
+            *count *= seen;
+            *mean *= seen * linearisation.rows.data()[i][RESIDUAL].clamp(-most, most);
+        }
+        let (mut mean, count) = (blur(&mean, SHADOW), blur(&count, SHADOW));
+        for (mean, count) in mean.data_mut().iter_mut().zip(count.data()) {
+            // The sum over so many pixels has their number for variance.
+            *mean /= (count + 1e-3).sqrt();
+        }
+        let fitted = weight.data().iter().zip(mean.data());
+        let usual = spread(fitted.filter(|(w, _)| **w > 0.0).map(|(_, m)| *m).collect());
+        let usual = (ROBUST * usual as f32).max(1e-3);
+        for (w, mean) in weight.data_mut().iter_mut().zip(mean.data()) {
+            *w /= (1.0 + (mean / usual).powi(2)).powi(2);
         }
         weight
     }

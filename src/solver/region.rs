@@ -111,7 +111,7 @@ impl Region {
     /// Motion and depth together: one joint step.
     pub fn fit_jointly(&mut self, evidence: &Evidence, prior: &FieldPrior) {
         let linearisation = evidence.linearise(self);
-        let weight = evidence.weights(&linearisation);
+        let weight = evidence.fitting_weights(&linearisation);
         let bends = self.bends(&linearisation, evidence, &weight);
         let edges = prior.edges(&bends);
         let mut data = certainty(&linearisation, &weight);
@@ -139,7 +139,7 @@ impl Region {
             return;
         }
         let linearisation = evidence.linearise(self);
-        let weight = evidence.weights(&linearisation);
+        let weight = evidence.fitting_weights(&linearisation);
         let bends = self.bends(&linearisation, evidence, &weight);
         let edges = prior.edges(&bends);
         let mut data = certainty(&linearisation, &weight);

@@ -184,7 +184,9 @@ impl Approach for SingleScale {
                 .map(|psi| psi * psi)
         };
         let xi: Vec<Grid<f32>> = self.motions.iter().map(squared).collect();
-        curves::evolve(&mut self.phi, &xi, self.weights.lambda, options.curve_steps);
+        let lambda = self.weights.lambda as f32;
+        let lambda = Grid::new(self.labels.width(), self.labels.height(), lambda);
+        curves::evolve(&mut self.phi, &xi, &lambda, options.curve_steps);
         self.labels = curves::labels(&self.phi, self.labels.width(), self.labels.height());
     }
 

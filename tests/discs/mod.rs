@@ -28,3 +28,8 @@ pub fn wrong(found: &[Grid<f32>], truth: &[Grid<f32>]) -> f64 {
     let pairs = found.data().iter().zip(truth.data());
     pairs.filter(|(a, b)| a != b).count() as f64 / (W * H) as f64
 }
+
+/// The same value at every pixel.
+pub fn everywhere(value: f32) -> Grid<f32> {
+    Grid::new(W, H, value)
+}

@@ -58,6 +58,17 @@ impl Layers {
         xi
     }
 
+    /// What a pixel of curve costs at every place: λ, less on edges.
+    pub(super) fn outline(&self, options: &Options) -> Grid<f32> {
+        let lambda = self.weights.lambda as f32;
+        if options.edges {
+            let first = &self.here().first;
+            curves::edge_weight(first, self.weights.sigma).map(|g| lambda * g)
+        } else {
+            Grid::new(self.labels.width(), self.labels.height(), lambda)
+        }
+    }
+
     /// The functional (7) as it stands, in pixels of the frame.
     pub(super) fn energy_in_pixels(&self, options: &Options) -> Energy {
         if self.weights.sigma.is_infinite() {
@@ -84,13 +95,14 @@ impl Layers {
             let bends = region.cropped(&window).bends(&lines[k], &evidence, &weight);
             prior.edges(&bends).energy(&bends)
         };
-        let length: f64 = self.phi.iter().map(curves::length).sum();
+        let outline = self.outline(options);
+        let length: f64 = self.phi.iter().map(|phi| curves::cost(phi, &outline)).sum();
         // In pixels of the frame: areas grow fourfold from scale to scale, lengths twofold.
         let side = f64::from(1u32 << self.schedule.level);
         Energy {
             data: data * side * side,
             smoothness: self.regions.iter().enumerate().map(smoothness).sum::<f64>() * side * side,
-            length: self.weights.lambda * length * side,
+            length: length * side,
         }
     }
 }

@@ -91,9 +91,10 @@ impl Approach for Layers {
         }
         let xi = self.competition(xi, &lines, options);
         if options.partition && self.schedule.repartitions() {
-            self.phi = curves::least_partition(&self.phi, &xi, self.weights.lambda, REACH);
+            self.phi = curves::least_partition(&self.phi, &xi, &self.outline(options), REACH);
         } else if self.schedule.settled() {
-            curves::evolve(&mut self.phi, &xi, self.weights.lambda, options.curve_steps);
+            let outline = self.outline(options);
+            curves::evolve(&mut self.phi, &xi, &outline, options.curve_steps);
         } else {
             self.phi = curves::threshold(&xi, self.schedule.window());
         }
