@@ -4,7 +4,7 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::Grid;
-use relievo::depth::{Bends, FieldPrior, Plane, confidence};
+use relievo::depth::{Bends, Edges, FieldPrior, Plane, confidence};
 use relievo::options::Diffusion;
 
 const W: usize = 13;
@@ -33,6 +33,11 @@ fn dot(a: &Grid<f32>, b: &Grid<f32>) -> f64 {
     pairs.map(|(a, b)| f64::from(*a) * f64::from(*b)).sum()
 }
 
+/// What smoothing charges for all of the field.
+fn whole(edges: &Edges, bends: &Bends) -> f64 {
+    edges.energy(bends, &Grid::new(W, H, 1.0))
+}
+
 #[test]
 fn the_pull_is_down_the_slope_of_the_energy() {
     let field = rough();
@@ -42,7 +47,7 @@ fn the_pull_is_down_the_slope_of_the_energy() {
         let energy = |by: f32| {
             let mut moved = field.clone();
             moved[at] += by;
-            edges.energy(&Bends::of(&moved))
+            whole(&edges, &Bends::of(&moved))
         };
         let slope = (energy(0.1) - energy(-0.1)) / 0.2;
         let half = -0.5 * slope;
@@ -63,7 +68,7 @@ fn energy_pull_and_system_are_one_operator() {
         let edges = prior(diffusion).edges(&Bends::of(&field));
         let pull = edges.pull(&Bends::of(&field));
         // ρᵀLρ = −ρ·pull(ρ).
-        let energy = edges.energy(&Bends::of(&field));
+        let energy = whole(&edges, &Bends::of(&field));
         assert!((energy + dot(&field, &pull)).abs() < 1e-4 * energy);
         // With d = 1: (1 + L) ρ = ρ − pull(ρ).
         let system = edges.system(W, H, vec![1.0; W * H]);
@@ -78,7 +83,7 @@ fn energy_pull_and_system_are_one_operator() {
         for at in [(0, 0), (W - 1, 3), (6, H - 1), (6, 4)] {
             let mut spike = Grid::new(W, H, 0.0f32);
             spike[at] = 1.0;
-            spike[at] = edges.energy(&Bends::of(&spike)) as f32;
+            spike[at] = whole(&edges, &Bends::of(&spike)) as f32;
             assert!((edges.determined(&spike) - 0.5).abs() < 1e-4);
         }
     }
@@ -90,18 +95,16 @@ fn an_edge_of_depth_is_smoothed_less_where_edges_are_kept() {
     let at_step = |diffusion| {
         let mut spike = Grid::new(W, H, 0.0f32);
         spike[(5, 4)] = 1.0;
-        prior(diffusion)
-            .edges(&Bends::of(&step))
-            .energy(&Bends::of(&spike))
+        let edges = prior(diffusion).edges(&Bends::of(&step));
+        whole(&edges, &Bends::of(&spike))
     };
     assert!(at_step(Diffusion::Anisotropic) < 0.6 * at_step(Diffusion::Isotropic));
     // Far below ε both are the same.
     let faint = rough().map(|r| 1e-4 * r);
     let (a, b) = [Diffusion::Anisotropic, Diffusion::Isotropic]
         .map(|d| {
-            prior(d)
-                .edges(&Bends::of(&faint))
-                .energy(&Bends::of(&faint))
+            let edges = prior(d).edges(&Bends::of(&faint));
+            whole(&edges, &Bends::of(&faint))
         })
         .into();
     assert!((a - b).abs() < 1e-5 * b);
@@ -129,9 +132,17 @@ fn a_plane_costs_nothing() {
     for diffusion in [Diffusion::Isotropic, Diffusion::Anisotropic] {
         let prior = prior(diffusion);
         let edges = prior.edges(&departure);
-        let steep = prior.edges(&plane_steps).energy(&plane_steps);
-        assert!(edges.energy(&departure) < 1e-6 * steep);
+        let steep = whole(&prior.edges(&plane_steps), &plane_steps);
+        assert!(whole(&edges, &departure) < 1e-6 * steep);
     }
+    // What the field does beyond the region is no part of its energy.
+    let bends = Bends::of(&spoilt);
+    let edges = prior(Diffusion::Isotropic).edges(&bends);
+    let inner = Grid::from_fn(W, H, |x, y| f32::from(x < 4 && y < 3));
+    let spared = Bends::of(&plane);
+    let within = edges.energy(&bends, &inner);
+    assert!((within - edges.energy(&spared, &inner)).abs() < 1e-4 * within);
+    assert!(whole(&edges, &bends) > 10.0 * within);
     // Nothing known: the depth that every region starts from.
     let nowhere = Plane::fit(&plane, &nothing);
     assert!(nowhere.slope() == [0.0; 2] && nowhere.at(3.0, 5.0) == 1.0);
@@ -142,7 +153,7 @@ fn charged(rho: &Grid<f32>) -> (f64, f64) {
     let owned = rho.map(|_| 1.0);
     let plane = Plane::fit(rho, &owned);
     let prior = prior(Diffusion::Isotropic);
-    let cost = |bends: &Bends| prior.edges(bends).energy(bends);
+    let cost = |bends: &Bends| prior.edges(bends).energy(bends, &owned);
     let about = Bends::about_slope(rho, &owned, &plane, 5.0);
     (cost(&about), cost(&Bends::of(rho)))
 }

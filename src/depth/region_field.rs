@@ -180,12 +180,12 @@ impl Edges {
             .sum()
     }
 
-    /// Σ c (bend)².
-    pub fn energy(&self, bends: &Bends) -> f64 {
+    /// Σ c (bend)² over the pixels that are `owned`: how the field goes on elsewhere is no part of (7).
+    pub fn energy(&self, bends: &Bends, owned: &Grid<f32>) -> f64 {
         let (right, down) = (bends.right.data(), bends.down.data());
-        let each = (0..right.len()).map(|i| {
-            f64::from(self.right[i] * right[i] * right[i])
-                + f64::from(self.below[i] * down[i] * down[i])
+        let each = owned.data().iter().enumerate().map(|(i, &own)| {
+            let bent = self.right[i] * right[i] * right[i] + self.below[i] * down[i] * down[i];
+            f64::from(own * bent)
         });
         each.sum()
     }

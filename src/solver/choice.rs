@@ -154,7 +154,7 @@ fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
         Kind::Full => 5.0,
     };
     let smoothness = if region.kind.translates() {
-        (edges.energy(&bends) + region.relief_energy(prior, evidence)) / variance
+        (edges.energy(&bends, &evidence.owned) + region.relief_energy(prior, evidence)) / variance
     } else {
         0.0
     };

@@ -28,7 +28,7 @@ pub(super) fn supported(region: &Region, evidence: &Evidence, prior: &FieldPrior
     let determined = edges.determined(&certainty(&line, &weight));
     let variance = evidence.sigma * evidence.sigma;
     // The bends' energy is μ S.
-    let share = CORRELATED * variance * determined / edges.energy(&bends);
+    let share = CORRELATED * variance * determined / edges.energy(&bends, &evidence.owned);
     if share.is_finite() {
         share.clamp(RANGE[0], RANGE[1])
     } else {

@@ -93,7 +93,7 @@ impl Layers {
             }
             let prior = self.prior(k, &evidence, options);
             let bends = region.cropped(&window).bends(&lines[k], &evidence, &weight);
-            prior.edges(&bends).energy(&bends)
+            prior.edges(&bends).energy(&bends, &evidence.owned)
         };
         let outline = self.outline(options);
         let length: f64 = self.phi.iter().map(|phi| curves::cost(phi, &outline)).sum();
