@@ -7,8 +7,8 @@
 //! Geodesic active contours (Caselles, Kimmel and Sapiro 1997). Where two regions explain a pixel alike, as on a
 //! dark side or a bare wall, motion leaves open where one ends; there a curve comes to rest on an edge of
 //! brightness rather than where it is shortest. An edge is what is steep for its surroundings, m, so that faint
-//! ones count in faint places: g is 1 where it is as steep as they are, 2 where nothing is, 0 on a
-//! sharp edge. It has no unit, nor has it one of brightness. n is what noise alone contributes to ‖∇I‖².
+//! ones count in faint places: g is 1 where a pixel is as steep as they are, 2 where it is level, and falls to 0 on a
+//! sharp edge. It has no unit and does not change when brightness is scaled. n is noise's share of ‖∇I‖².
 
 use crate::frames::{blur, gradient};
 use crate::grid::Grid;
