@@ -17,8 +17,9 @@ const LAMBDA_OVER_VARIANCE: f64 = 1.5;
 /// μ/σ² of the coarse-to-fine approach, whose ε is the slope of a surface: while regions still hold pixels
 /// of others, which depth must not explain away, and once they have settled.
 const MU_OF_LAYERS: [f64; 2] = [1.0, 0.1];
-/// λ/σ² of the coarse-to-fine approach, whose ξ counts a pixel once.
-const LAMBDA_OF_LAYERS: f64 = 2.0;
+/// λ/σ² of the coarse-to-fine approach, whose ξ counts a pixel once and whose outlines cost half where they lie
+/// on edges.
+const LAMBDA_OF_LAYERS: f64 = 2.5;
 /// Least σ in grey levels: frames of 8 bits are not known better, derivatives included.
 const LEAST_SIGMA: f64 = 0.4;
 /// The same where frames are warped, and derivatives only tell directions.
