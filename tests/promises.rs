@@ -79,14 +79,16 @@ fn turning_bodies_are_not_taken_for_their_mirror_images() {
     }
 }
 
+// What is drawn from this seed hinges on rounding, and is another scene in WebAssembly.
+#[cfg(not(target_arch = "wasm32"))]
 #[test]
 fn shadows_that_pass_over_the_background_do_not_turn_its_motion() {
-    // A wall and a floor that move by a third of a pixel, in noise of four grey levels, under three bodies' shadows.
-    let sequence = scene::variant("carousel", 1017, 4.0, 2.0, 320, 240).unwrap();
+    // A wall and a floor that move by a third of a pixel, in noise of three grey levels, under three bodies' shadows.
+    let sequence = scene::variant("carousel", 1017, 3.0, 2.0, 320, 240).unwrap();
     let found = solved(&sequence, best(), |v| v).interpretation();
     let scores = compare(&found, &sequence.truth).unwrap();
     let angle = scores.translation_angle[0].unwrap();
-    assert!(angle < 2.5, "T of the background is off by {angle}°");
+    assert!(angle < 1.6, "T of the background is off by {angle}°");
 }
 
 #[test]

@@ -22,6 +22,8 @@ const POSITION_ERROR: f32 = 0.06;
 const ROBUST: f32 = 3.0;
 /// Standard deviation of the window over which residuals are averaged to find shadows, in pixels.
 const SHADOW: f64 = 4.0;
+/// The same as c for that mean: depth that is not found yet leaves means of a few standard deviations.
+const SHADOWED: f32 = 6.0;
 /// Standard deviation of f·ω known beforehand, in pixels at the finest scale's width of 320.
 const ROTATION_SPREAD: f64 = 8.0;
 /// Smoothness of a change of brightness, in pixels, and the weight below which it is not known.
@@ -44,7 +46,7 @@ pub(super) struct Evidence<'a> {
     /// The same of the region's own residual as it is, not less: large as long as its motion is wrong.
     pub spread: f64,
     pub robust: bool,
-    /// Whether shadows may pass over the region.
+    /// Whether shadows of other regions may pass over the region.
     pub shadowed: bool,
 }
 
@@ -112,7 +114,7 @@ impl Evidence<'_> {
         }
         let fitted = weight.data().iter().zip(mean.data());
         let usual = spread(fitted.filter(|(w, _)| **w > 0.0).map(|(_, m)| *m).collect());
-        let usual = (ROBUST * usual as f32).max(1e-3);
+        let usual = (SHADOWED * usual as f32).max(1e-3);
         for (w, mean) in weight.data_mut().iter_mut().zip(mean.data()) {
             *w /= (1.0 + (mean / usual).powi(2)).powi(2);
         }

@@ -186,7 +186,7 @@ impl Layers {
             sigma: self.weights.sigma,
             spread: self.noise.regions[k].max(self.weights.sigma),
             robust: options.robust,
-            shadowed: k == 0 && self.schedule.level == 0,
+            shadowed: k == 0 && self.regions.len() > 1 && self.schedule.level == 0,
         }
     }
 
