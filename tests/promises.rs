@@ -79,7 +79,7 @@ fn turning_bodies_are_not_taken_for_their_mirror_images() {
     }
 }
 
-// What is drawn from this seed hinges on rounding, and is another scene in WebAssembly.
+// In WebAssembly this seed draws another scene, whose background does not travel.
 #[cfg(not(target_arch = "wasm32"))]
 #[test]
 fn shadows_that_pass_over_the_background_do_not_turn_its_motion() {

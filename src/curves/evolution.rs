@@ -7,9 +7,9 @@
 //!
 //! ξ in grey levels² (ψ² in the paper), λ in grey levels²·px. λ may differ from place to place (`geodesic.rs`):
 //! the last term, nought in the paper, takes curves to where it is less. The data part is upwind (Godunov), and
-//! so is that term, the curvature central. The time step comes from the 70th percentile of speed along the curves: one set
-//! by the fastest pixel would pin all others. Faster pixels are held to [`FASTEST`]. Stops after the
-//! number of steps asked for; redistances every few of them, and works on a band around the curve.
+//! so is that term; the curvature is central. The time step comes from the 70th percentile of speed along the
+//! curves: one set by the fastest pixel would pin all others. Faster pixels are held to [`FASTEST`]. Stops after
+//! the number of steps asked for; redistances every few of them, and works on a band around the curve.
 
 use super::redistance::redistance;
 use crate::grid::Grid;

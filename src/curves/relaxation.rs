@@ -10,9 +10,9 @@
 //! steps to draw in. Here it goes at once; growing is held to a reach, since what a region would leap to often
 //! has its motion but is not part of it, like a shadow. Relaxed to shares uk between 0 and 1 the functional is
 //! convex (Zach et al. 2008; Lellmann and Schnörr 2011), and primal-dual steps (Chambolle and Pock 2011,
-//! τ² ‖∇‖² ≤ 1 with ‖∇‖² ≤ 8) lead to its minimum from anywhere. ξ in grey levels², λ in grey levels²·px, and
-//! all in units of its mean. Stops
-//! when shares move by less than [`STILL`] pixels in a step, all in all, or after [`MOST_STEPS`].
+//! τ² ‖∇‖² ≤ 1 with ‖∇‖² ≤ 8) lead to its minimum from anywhere. ξ in grey levels², λ in grey levels²·px;
+//! both are divided by λ's mean. Stops when shares move by less than [`STILL`] pixels in a step, all in all, or
+//! after [`MOST_STEPS`].
 
 use super::evolution::labels;
 use super::redistance::redistance;
