@@ -6,8 +6,8 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 mod discs;
 
 use relievo::Grid;
-use relievo::curves::{cost, edge_weight, evolve, labels, least_partition, length};
-use relievo::frames::blur;
+use relievo::curves::{cost, evolve, labels, least_partition, length, outline_cost};
+use relievo::frames::{blur, edge_weight};
 
 use discs::{H, W, circle, everywhere, residuals, wrong};
 
@@ -21,15 +21,15 @@ fn picture(disc: &Grid<f32>, contrast: f32, texture: f32) -> Grid<f32> {
 }
 
 /// λ on such a picture.
-fn outline(disc: &Grid<f32>, contrast: f32, lambda: f32) -> Grid<f32> {
-    edge_weight(&picture(disc, contrast, 3.0), 1.0).map(|g| lambda * g)
+fn outline(disc: &Grid<f32>, contrast: f32, lambda: f64) -> Grid<f32> {
+    outline_cost(&picture(disc, contrast, 3.0), 1.0, lambda)
 }
 
 #[test]
 fn an_edge_is_cheap_for_its_surroundings_and_its_size_is_no_matter() {
     let disc = circle(32.0, 28.0, 15.0);
     for contrast in [15.0, 60.0, -60.0] {
-        let weight = edge_weight(&picture(&disc, contrast, 2.0), 1.0);
+        let weight = edge_weight(&picture(&disc, contrast, 2.0), 1.0, 1.0);
         let mean_where = |within: &dyn Fn(f32) -> bool| {
             let chosen = disc.data().iter().zip(weight.data());
             let chosen: Vec<f32> = chosen
@@ -43,7 +43,7 @@ fn an_edge_is_cheap_for_its_surroundings_and_its_size_is_no_matter() {
         assert!(off > 1.0, "{off} inside");
     }
     assert!(
-        edge_weight(&everywhere(9.0), 1.0)
+        edge_weight(&everywhere(9.0), 1.0, 1.0)
             .data()
             .iter()
             .all(|g| *g == 2.0)
@@ -54,8 +54,8 @@ fn an_edge_is_cheap_for_its_surroundings_and_its_size_is_no_matter() {
 fn brightness_units_do_not_matter() {
     let shown = picture(&circle(32.0, 28.0, 15.0), 20.0, 3.0);
     let (one, many) = (
-        edge_weight(&shown, 1.0),
-        edge_weight(&shown.map(|v| 16.0 * v), 16.0),
+        edge_weight(&shown, 1.0, 1.0),
+        edge_weight(&shown.map(|v| 16.0 * v), 16.0, 1.0),
     );
     let differ = one
         .data()

@@ -172,6 +172,7 @@ fn refine(
         diffusion: Diffusion::Isotropic,
         strength: 0.01,
         epsilon: 0.01,
+        creases: None,
         relief: 0.0,
     };
     for _ in 0..steps {

@@ -4,7 +4,7 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::Grid;
-use relievo::depth::{Bends, Edges, FieldPrior, Plane, confidence};
+use relievo::depth::{Bends, Edges, FieldPrior, Plane, confidence, creases};
 use relievo::options::Diffusion;
 
 const W: usize = 13;
@@ -24,6 +24,7 @@ fn prior(diffusion: Diffusion) -> FieldPrior {
         diffusion,
         strength: 0.3,
         epsilon: 0.5,
+        creases: None,
         relief: 0.0,
     }
 }
@@ -108,6 +109,43 @@ fn an_edge_of_depth_is_smoothed_less_where_edges_are_kept() {
         })
         .into();
     assert!((a - b).abs() < 1e-5 * b);
+}
+
+#[test]
+fn a_step_on_a_crease_costs_its_share_and_a_gentle_bend_costs_the_same() {
+    let share = 0.1;
+    let creased = FieldPrior {
+        creases: Some(Grid::from_fn(W, H, |x, _| if x == 5 { share } else { 1.0 })),
+        ..prior(Diffusion::Anisotropic)
+    };
+    let cost = |prior: &FieldPrior, after: usize, height: f32| {
+        let step = Grid::from_fn(W, H, |x, _| if x <= after { 0.0 } else { height });
+        let bends = Bends::of(&step);
+        whole(&prior.edges(&bends), &bends)
+    };
+    let plain = prior(Diffusion::Anisotropic);
+    let ratio = |after, height| cost(&creased, after, height) / cost(&plain, after, height);
+    assert!((ratio(5, 500.0) - f64::from(share)).abs() < 1e-3);
+    assert!((ratio(5, 1e-4) - 1.0).abs() < 1e-3);
+    assert!((ratio(8, 500.0) - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn creases_lie_on_edges_that_stand_clear_of_noise() {
+    let picture = |contrast: f32| {
+        Grid::from_fn(64, 48, |x, y| {
+            100.0 + 2.0 * noise(x, y) + if x < 32 { 0.0 } else { contrast }
+        })
+    };
+    let (far, on) = ((12, 24), (32, 24));
+    for contrast in [60.0, -60.0] {
+        let sharp = creases(&picture(contrast), 1.0);
+        assert!(sharp[on] < 0.1, "{} on an edge", sharp[on]);
+        assert!(sharp[far] > 0.5, "{} off it", sharp[far]);
+        assert!(sharp.data().iter().all(|s| *s > 0.0 && *s <= 1.0));
+    }
+    // The same picture where noise is as strong as its edge.
+    assert!(creases(&picture(60.0), 60.0)[on] > 0.9);
 }
 
 #[test]

@@ -1,38 +1,21 @@
 //! Where outlines are cheap: the length of a curve weighed by the picture under it.
 //!
 //! ```text
-//! λ Σ_{k≥1} ∮_γk g ds        g = 2 / ( 1 + ‖∇I‖² / m ),    m = Gw * ‖∇I‖² + n
+//! Σ_{k≥1} ∮_γk λ g ds        g of frames/edges.rs, 0 on a sharp edge, 2 where brightness is level
 //! ```
 //!
 //! Geodesic active contours (Caselles, Kimmel and Sapiro 1997). Where two regions explain a pixel alike, as on a
 //! dark side or a bare wall, motion leaves open where one ends; there a curve comes to rest on an edge of
-//! brightness rather than where it is shortest. An edge is what is steep for its surroundings, m, so that faint
-//! ones count in faint places: g is 1 where a pixel is as steep as they are, 2 where it is level, and falls to 0 on a
-//! sharp edge. It has no unit and does not change when brightness is scaled. n is noise's share of ‖∇I‖².
+//! brightness rather than where it is shortest.
 
-use crate::frames::{blur, gradient};
+use crate::frames::edge_weight;
 use crate::grid::Grid;
 
-/// Standard deviation of the Gaussian before the gradient, in pixels.
-const SMOOTHING: f64 = 1.0;
-/// Standard deviation of w, the surroundings, in pixels.
-const SURROUNDINGS: f64 = 8.0;
-/// n/σ²: white noise smoothed so has gradients of the variance σ²/8π in each direction, and σ, a
-/// residual's, is that of two frames.
-const OF_NOISE: f64 = 0.04;
+/// How clear of noise an edge has to be: not at all, since λ grows with noise as well.
+const CLEAR: f64 = 1.0;
 
-/// g at every pixel of a picture, from 0 to 2; `sigma` is the standard deviation of a residual between two
-/// such pictures, in grey levels.
-pub fn edge_weight(picture: &Grid<f32>, sigma: f64) -> Grid<f32> {
-    let (ix, iy) = gradient(&blur(picture, SMOOTHING));
-    let mut steep = ix;
-    for (steep, iy) in steep.data_mut().iter_mut().zip(iy.data()) {
-        *steep = *steep * *steep + iy * iy;
-    }
-    let noise = (OF_NOISE * sigma * sigma).max(1e-6) as f32;
-    let mut weight = blur(&steep, SURROUNDINGS);
-    for (weight, steep) in weight.data_mut().iter_mut().zip(steep.data()) {
-        *weight = 2.0 / (1.0 + steep / (*weight + noise));
-    }
-    weight
+/// λ g: what a pixel of curve costs at every place of a picture. `sigma` is the standard deviation of a
+/// residual, in grey levels.
+pub fn outline_cost(picture: &Grid<f32>, sigma: f64, lambda: f64) -> Grid<f32> {
+    edge_weight(picture, sigma, CLEAR).map(|g| lambda as f32 * g)
 }

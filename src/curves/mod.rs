@@ -13,7 +13,7 @@ mod threshold;
 pub use competition::Measure;
 pub use contour::{Contour, contours};
 pub use evolution::{cost, evolve, labels, length};
-pub use geodesic::edge_weight;
+pub use geodesic::outline_cost;
 pub use islands::without_islands;
 pub use redistance::redistance;
 pub use relaxation::least_partition;

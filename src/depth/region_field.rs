@@ -21,7 +21,7 @@ use crate::options::Diffusion;
 const UNKNOWN: f32 = 0.05;
 
 /// Smoothness of a region's ρ.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct FieldPrior {
     /// (11) or (12).
     pub diffusion: Diffusion,
@@ -29,6 +29,8 @@ pub struct FieldPrior {
     pub strength: f64,
     /// ε, per pixel.
     pub epsilon: f64,
+    /// The share of ε from which a step counts as an edge, at every pixel; 1 where there is none.
+    pub creases: Option<Grid<f32>>,
     /// Weight of (ρ − 1)² at each pixel of the region, grey levels².
     pub relief: f64,
 }
@@ -109,8 +111,9 @@ impl FieldPrior {
         let (width, height) = (bends.right.width(), bends.right.height());
         let e2 = (self.epsilon * self.epsilon) as f32;
         let flat = (self.strength as f32) / e2;
-        let weight = |r2: f32| match self.diffusion {
-            Diffusion::Anisotropic => flat / (1.0 + r2 / e2).sqrt(),
+        let share = |i: usize| self.creases.as_ref().map_or(1.0, |s| s.data()[i]);
+        let weight = |i: usize, r2: f32| match self.diffusion {
+            Diffusion::Anisotropic => flat / (1.0 + r2 / (e2 * share(i) * share(i))).sqrt(),
             Diffusion::Isotropic => flat,
         };
         let mut right = vec![0.0; width * height];
@@ -119,7 +122,7 @@ impl FieldPrior {
             for x in 0..width {
                 let i = y * width + x;
                 let (dx, dy) = (bends.right.data()[i], bends.down.data()[i]);
-                let c = weight(dx * dx + dy * dy);
+                let c = weight(i, dx * dx + dy * dy);
                 if x + 1 < width {
                     right[i] = c;
                 }

@@ -1,6 +1,7 @@
 //! From bytes to what the solver reads: decoding, brightness, and its derivatives.
 
 mod derivatives;
+mod edges;
 mod frame;
 mod gaussian;
 mod lighting;
@@ -8,6 +9,7 @@ mod pyramid;
 mod spline;
 
 pub use derivatives::{Derivatives, gradient};
+pub use edges::edge_weight;
 pub use frame::{Frame, FramePair, MAX_SIDE, MIN_SIDE};
 pub use gaussian::blur;
 pub use lighting::Lighting;

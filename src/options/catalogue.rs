@@ -187,9 +187,9 @@ static CATALOGUE: &[Descriptor] = &[
     ),
     toggle(
         "edges",
-        "Outlines on edges",
-        "Let outlines cost less where brightness has an edge: what motion leaves open is decided there. Coarse to fine only.",
-        "λ ∮ds in (7)",
+        "Edges of brightness",
+        "Let outlines cost less, and the background's depth step, where brightness has an edge: what motion leaves open is decided there. Coarse to fine only.",
+        "λ ∮ds and g(‖∇Z‖) in (7)",
     ),
     Descriptor {
         key: "depth_steps",

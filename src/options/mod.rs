@@ -117,7 +117,7 @@ pub struct Options {
     pub islands: bool,
     /// Whether curves are taken to the least partition before (17) moves them.
     pub partition: bool,
-    /// Whether outlines cost less on edges of brightness.
+    /// Whether outlines cost less, and the background's depth may step, on edges of brightness.
     pub edges: bool,
     /// Passes after which the solver gives up.
     pub max_passes: usize,

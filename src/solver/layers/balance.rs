@@ -60,12 +60,11 @@ impl Layers {
 
     /// What a pixel of curve costs at every place: λ, less on edges.
     pub(super) fn outline(&self, options: &Options) -> Grid<f32> {
-        let lambda = self.weights.lambda as f32;
+        let Weights { lambda, sigma, .. } = self.weights;
         if options.edges {
-            let first = &self.here().first;
-            curves::edge_weight(first, self.weights.sigma).map(|g| lambda * g)
+            curves::outline_cost(&self.here().first, sigma, lambda)
         } else {
-            Grid::new(self.labels.width(), self.labels.height(), lambda)
+            Grid::new(self.labels.width(), self.labels.height(), lambda as f32)
         }
     }
 

@@ -21,7 +21,7 @@ use super::schedule::Schedule;
 use super::weights::Weights;
 use crate::camera::Camera;
 use crate::curves;
-use crate::depth::FieldPrior;
+use crate::depth::{self, FieldPrior};
 use crate::frames::{FramePair, Lighting, doubled, halved};
 use crate::grid::Grid;
 use crate::occlusion::Cover;
@@ -153,8 +153,26 @@ impl Layers {
             diffusion: options.diffusion,
             strength: self.weights.mu * stiffness,
             epsilon: options.epsilon * f64::from(1u32 << self.schedule.level),
+            creases: self.creases(k, evidence, options),
             relief: evidence.relief_prior(),
         }
+    }
+
+    /// Where the depth of region k may step: a background is many things, each of which may stand before
+    /// another, and most of a body's edges are painted on it. Offered pixels must follow, or they would be
+    /// explained by a depth of their own.
+    fn creases(&self, k: usize, evidence: &Evidence, options: &Options) -> Option<Grid<f32>> {
+        if !(options.edges && k == 0 && self.schedule.settled()) {
+            return None;
+        }
+        let everywhere = depth::creases(&self.here().first, self.weights.sigma);
+        let mut creases = evidence.window.crop(&everywhere);
+        for (share, own) in creases.data_mut().iter_mut().zip(evidence.owned.data()) {
+            if *own < 1.0 {
+                *share = 1.0;
+            }
+        }
+        Some(creases)
     }
 
     /// Where region k is computed: everywhere while curves may still leap anywhere.

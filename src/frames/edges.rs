@@ -1,0 +1,36 @@
+//! How far a pixel lies on an edge of brightness.
+//!
+//! ```text
+//! g = 2 / ( 1 + ‖∇I‖² / m ),    m = Gw * ‖∇I‖² + n
+//! ```
+//!
+//! An edge is what is steep for its surroundings, m, so that faint ones count in faint places: g is 1 where a
+//! pixel is as steep as they are, 2 where it is level, and falls to 0 on a sharp edge. It has no unit and does not
+//! change when brightness is scaled. n is noise's share of ‖∇I‖², times how clear of noise an edge has to be.
+
+use super::{blur, gradient};
+use crate::grid::Grid;
+
+/// Standard deviation of the Gaussian before the gradient, in pixels.
+const SMOOTHING: f64 = 1.0;
+/// Standard deviation of w, the surroundings, in pixels.
+const SURROUNDINGS: f64 = 8.0;
+/// n/σ²: white noise smoothed so has gradients of the variance σ²/8π in each direction, and σ, a
+/// residual's, is that of two frames.
+const OF_NOISE: f64 = 0.04;
+
+/// g at every pixel of a picture, from 0 to 2; `sigma` is the standard deviation of a residual between two
+/// such pictures, in grey levels. Edges count that are steeper than `clear` times noise's gradient.
+pub fn edge_weight(picture: &Grid<f32>, sigma: f64, clear: f64) -> Grid<f32> {
+    let (ix, iy) = gradient(&blur(picture, SMOOTHING));
+    let mut steep = ix;
+    for (steep, iy) in steep.data_mut().iter_mut().zip(iy.data()) {
+        *steep = *steep * *steep + iy * iy;
+    }
+    let noise = (OF_NOISE * (clear * sigma).powi(2)).max(1e-6) as f32;
+    let mut weight = blur(&steep, SURROUNDINGS);
+    for (weight, steep) in weight.data_mut().iter_mut().zip(steep.data()) {
+        *weight = 2.0 / (1.0 + steep / (*weight + noise));
+    }
+    weight
+}
