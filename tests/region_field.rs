@@ -115,7 +115,10 @@ fn an_edge_of_depth_is_smoothed_less_where_edges_are_kept() {
 fn a_step_on_a_crease_costs_its_share_and_a_gentle_bend_costs_the_same() {
     let share = 0.1;
     let creased = FieldPrior {
-        creases: Some(Grid::from_fn(W, H, |x, _| if x == 5 { share } else { 1.0 })),
+        creases: Some([
+            Grid::from_fn(W, H, |x, _| if x == 5 { share } else { 1.0 }),
+            Grid::new(W, H, 1.0),
+        ]),
         ..prior(Diffusion::Anisotropic)
     };
     let cost = |prior: &FieldPrior, after: usize, height: f32| {
@@ -131,21 +134,26 @@ fn a_step_on_a_crease_costs_its_share_and_a_gentle_bend_costs_the_same() {
 }
 
 #[test]
-fn creases_lie_on_edges_that_stand_clear_of_noise() {
+fn creases_lie_across_edges_that_stand_clear_of_noise() {
     let picture = |contrast: f32| {
         Grid::from_fn(64, 48, |x, y| {
             100.0 + 2.0 * noise(x, y) + if x < 32 { 0.0 } else { contrast }
         })
     };
-    let (far, on) = ((12, 24), (32, 24));
+    let (far, on) = ((12, 24), (31, 24));
+    let owned = Grid::new(64, 48, 1.0);
     for contrast in [60.0, -60.0] {
-        let sharp = creases(&picture(contrast), 1.0);
-        assert!(sharp[on] < 0.1, "{} on an edge", sharp[on]);
-        assert!(sharp[far] > 0.5, "{} off it", sharp[far]);
-        assert!(sharp.data().iter().all(|s| *s > 0.0 && *s <= 1.0));
+        let [right, down] = creases(&picture(contrast), 1.0, &owned);
+        assert!(right[on] < 0.1, "{} across an edge", right[on]);
+        assert!(down[on] > 0.5, "{} along it", down[on]);
+        assert!(right[far] > 0.5, "{} off it", right[far]);
+        assert!(right.data().iter().all(|s| *s > 0.0 && *s <= 1.0));
     }
     // The same picture where noise is as strong as its edge.
-    assert!(creases(&picture(60.0), 60.0)[on] > 0.9);
+    assert!(creases(&picture(60.0), 60.0, &owned)[0][on] > 0.9);
+    // And where another region begins at the edge.
+    let left = Grid::from_fn(64, 48, |x, _| f32::from(x < 32));
+    assert!(creases(&picture(60.0), 1.0, &left)[0][on] >= 1.0);
 }
 
 #[test]

@@ -29,8 +29,8 @@ pub struct FieldPrior {
     pub strength: f64,
     /// ε, per pixel.
     pub epsilon: f64,
-    /// The share of ε from which a step counts as an edge, at every pixel; 1 where there is none.
-    pub creases: Option<Grid<f32>>,
+    /// The share of ε from which a step to the right, and one down, counts as an edge; 1 where there is none.
+    pub creases: Option<[Grid<f32>; 2]>,
     /// Weight of (ρ − 1)² at each pixel of the region, grey levels².
     pub relief: f64,
 }
@@ -111,9 +111,13 @@ impl FieldPrior {
         let (width, height) = (bends.right.width(), bends.right.height());
         let e2 = (self.epsilon * self.epsilon) as f32;
         let flat = (self.strength as f32) / e2;
-        let share = |i: usize| self.creases.as_ref().map_or(1.0, |s| s.data()[i]);
-        let weight = |i: usize, r2: f32| match self.diffusion {
-            Diffusion::Anisotropic => flat / (1.0 + r2 / (e2 * share(i) * share(i))).sqrt(),
+        let share =
+            |axis: usize, i: usize| self.creases.as_ref().map_or(1.0, |s| s[axis].data()[i]);
+        let weight = |axis: usize, i: usize, r2: f32| match self.diffusion {
+            Diffusion::Anisotropic => {
+                let s = share(axis, i);
+                flat / (1.0 + r2 / (e2 * s * s)).sqrt()
+            }
             Diffusion::Isotropic => flat,
         };
         let mut right = vec![0.0; width * height];
@@ -122,12 +126,12 @@ impl FieldPrior {
             for x in 0..width {
                 let i = y * width + x;
                 let (dx, dy) = (bends.right.data()[i], bends.down.data()[i]);
-                let c = weight(i, dx * dx + dy * dy);
+                let r2 = dx * dx + dy * dy;
                 if x + 1 < width {
-                    right[i] = c;
+                    right[i] = weight(0, i, r2);
                 }
                 if y + 1 < height {
-                    below[i] = c;
+                    below[i] = weight(1, i, r2);
                 }
             }
         }

@@ -22,15 +22,45 @@ const OF_NOISE: f64 = 0.04;
 /// g at every pixel of a picture, from 0 to 2; `sigma` is the standard deviation of a residual between two
 /// such pictures, in grey levels. Edges count that are steeper than `clear` times noise's gradient.
 pub fn edge_weight(picture: &Grid<f32>, sigma: f64, clear: f64) -> Grid<f32> {
-    let (ix, iy) = gradient(&blur(picture, SMOOTHING));
-    let mut steep = ix;
-    for (steep, iy) in steep.data_mut().iter_mut().zip(iy.data()) {
-        *steep = *steep * *steep + iy * iy;
+    let Steepness { along, around } = Steepness::of(picture, sigma, clear);
+    let [ix2, iy2] = along;
+    Grid::from_fn(picture.width(), picture.height(), |x, y| {
+        let at = (x, y);
+        2.0 / (1.0 + (ix2[at] + iy2[at]) / around[at])
+    })
+}
+
+/// The same for edges that are crossed by going right, and by going down: ‖∇I‖² gives way to twice the part of
+/// it that lies in that direction.
+pub fn edge_weights_across(picture: &Grid<f32>, sigma: f64, clear: f64) -> [Grid<f32>; 2] {
+    let Steepness { along, around } = Steepness::of(picture, sigma, clear);
+    along.map(|mut g| {
+        for (g, around) in g.data_mut().iter_mut().zip(around.data()) {
+            *g = 2.0 / (1.0 + 2.0 * *g / around);
+        }
+        g
+    })
+}
+
+/// ‖∇I‖² in parts, and m.
+struct Steepness {
+    /// (∂I/∂x)² and (∂I/∂y)².
+    along: [Grid<f32>; 2],
+    around: Grid<f32>,
+}
+
+impl Steepness {
+    fn of(picture: &Grid<f32>, sigma: f64, clear: f64) -> Self {
+        let (ix, iy) = gradient(&blur(picture, SMOOTHING));
+        let along = [ix, iy].map(|d| d.map(|d| d * d));
+        let mut both = along[0].clone();
+        for (both, iy2) in both.data_mut().iter_mut().zip(along[1].data()) {
+            *both += iy2;
+        }
+        let noise = (OF_NOISE * (clear * sigma).powi(2)).max(1e-6) as f32;
+        Self {
+            along,
+            around: blur(&both, SURROUNDINGS).map(|m| m + noise),
+        }
     }
-    let noise = (OF_NOISE * (clear * sigma).powi(2)).max(1e-6) as f32;
-    let mut weight = blur(&steep, SURROUNDINGS);
-    for (weight, steep) in weight.data_mut().iter_mut().zip(steep.data()) {
-        *weight = 2.0 / (1.0 + steep / (*weight + noise));
-    }
-    weight
 }

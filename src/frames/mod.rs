@@ -9,7 +9,7 @@ mod pyramid;
 mod spline;
 
 pub use derivatives::{Derivatives, gradient};
-pub use edges::edge_weight;
+pub use edges::{edge_weight, edge_weights_across};
 pub use frame::{Frame, FramePair, MAX_SIDE, MIN_SIDE};
 pub use gaussian::blur;
 pub use lighting::Lighting;

@@ -161,18 +161,12 @@ impl Layers {
     /// Where the depth of region k may step: a background is many things, each of which may stand before
     /// another, and most of a body's edges are painted on it. Offered pixels must follow, or they would be
     /// explained by a depth of their own.
-    fn creases(&self, k: usize, evidence: &Evidence, options: &Options) -> Option<Grid<f32>> {
-        if !(options.edges && k == 0 && self.schedule.settled()) {
-            return None;
-        }
-        let everywhere = depth::creases(&self.here().first, self.weights.sigma);
-        let mut creases = evidence.window.crop(&everywhere);
-        for (share, own) in creases.data_mut().iter_mut().zip(evidence.owned.data()) {
-            if *own < 1.0 {
-                *share = 1.0;
-            }
-        }
-        Some(creases)
+    fn creases(&self, k: usize, evidence: &Evidence, options: &Options) -> Option<[Grid<f32>; 2]> {
+        let applies = options.edges && k == 0 && self.schedule.settled();
+        applies.then(|| {
+            let first = evidence.window.crop(&self.here().first);
+            depth::creases(&first, self.weights.sigma, &evidence.owned)
+        })
     }
 
     /// Where region k is computed: everywhere while curves may still leap anywhere.
