@@ -11,7 +11,7 @@
 use crate::frames::edge_weight;
 use crate::grid::Grid;
 
-/// How clear of noise an edge has to be: not at all, since λ grows with noise as well.
+/// How clear of noise an edge has to be: no more than as steep, since λ grows with noise as well.
 const CLEAR: f64 = 1.0;
 
 /// λ g: what a pixel of curve costs at every place of a picture. `sigma` is the standard deviation of a

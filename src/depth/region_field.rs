@@ -8,7 +8,8 @@
 //! pixels around, lagged, and that of the plane that fits best where the region has no pixels, so that ρ
 //! goes on as the plane does beyond the region's curve. Slanted and gently curved surfaces cost next to
 //! nothing; what is smoothed is how ρ bends. c is (11) or (12) of the bend over ε, lagged; ε is in units of
-//! mean ρ per focal length, so that it means a slope of the surface and not of pixels. Weights are in units of
+//! mean ρ per focal length, so that it means a slope of the surface and not of pixels, and less on creases
+//! (`crease.rs`). Weights are in units of
 //! the noise's variance. κ keeps relief that nothing shows from growing.
 
 use super::elliptic::Elliptic;
@@ -29,7 +30,7 @@ pub struct FieldPrior {
     pub strength: f64,
     /// ε, per pixel.
     pub epsilon: f64,
-    /// The share of ε from which a step to the right, and one down, counts as an edge; 1 where there is none.
+    /// The share of ε that holds for the step to the right, and for the one down, of every pixel; none for all of it.
     pub creases: Option<[Grid<f32>; 2]>,
     /// Weight of (ρ − 1)² at each pixel of the region, grey levels².
     pub relief: f64,

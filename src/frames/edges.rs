@@ -6,7 +6,8 @@
 //!
 //! An edge is what is steep for its surroundings, m, so that faint ones count in faint places: g is 1 where a
 //! pixel is as steep as they are, 2 where it is level, and falls to 0 on a sharp edge. It has no unit and does not
-//! change when brightness is scaled. n is noise's share of ‖∇I‖², times how clear of noise an edge has to be.
+//! change when brightness is scaled. n is noise's share of ‖∇I‖², times the
+//! square of how clear of noise an edge has to be.
 
 use super::{blur, gradient};
 use crate::grid::Grid;
@@ -20,7 +21,7 @@ const SURROUNDINGS: f64 = 8.0;
 const OF_NOISE: f64 = 0.04;
 
 /// g at every pixel of a picture, from 0 to 2; `sigma` is the standard deviation of a residual between two
-/// such pictures, in grey levels. Edges count that are steeper than `clear` times noise's gradient.
+/// such pictures, in grey levels. What is less steep than `clear` times noise's gradient is no edge.
 pub fn edge_weight(picture: &Grid<f32>, sigma: f64, clear: f64) -> Grid<f32> {
     let Steepness { along, around } = Steepness::of(picture, sigma, clear);
     let [ix2, iy2] = along;
