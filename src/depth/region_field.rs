@@ -9,8 +9,7 @@
 //! goes on as the plane does beyond the region's curve. Slanted and gently curved surfaces cost next to
 //! nothing; what is smoothed is how ρ bends. c is (11) or (12) of the bend over ε, lagged; ε is in units of
 //! mean ρ per focal length, so that it means a slope of the surface and not of pixels, and less on creases
-//! (`crease.rs`). Weights are in units of
-//! the noise's variance. κ keeps relief that nothing shows from growing.
+//! (`crease.rs`). Weights are in units of the noise's variance. κ keeps relief that nothing shows from growing.
 
 use super::elliptic::Elliptic;
 use crate::frames::blur;
