@@ -191,6 +191,12 @@ static CATALOGUE: &[Descriptor] = &[
         "Let outlines cost less, and the background's depth step, where brightness has an edge: what motion leaves open is decided there. Coarse to fine only.",
         "λ ∮ds and g(‖∇Z‖) in (7)",
     ),
+    toggle(
+        "cross_validation",
+        "Cross-validation",
+        "Once all stands still, hold motions, and give each region the smoothness that best foretells pixels left out of its fit. Coarse to fine only, where μ is chosen from the data.",
+        "μ in (7)",
+    ),
     Descriptor {
         key: "depth_steps",
         label: "Depth steps",

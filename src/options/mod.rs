@@ -119,6 +119,8 @@ pub struct Options {
     pub partition: bool,
     /// Whether outlines cost less, and the background's depth may step, on edges of brightness.
     pub edges: bool,
+    /// Whether each region takes the smoothness that best foretells pixels left out.
+    pub cross_validation: bool,
     /// Passes after which the solver gives up.
     pub max_passes: usize,
     /// Share of pixels that may still change region in a pass that counts as still.
@@ -150,6 +152,7 @@ impl Options {
                 islands: true,
                 partition: true,
                 edges: true,
+                cross_validation: true,
                 max_passes: 40,
                 preset,
                 ..Self::preset(Preset::Paper)
@@ -176,6 +179,7 @@ impl Options {
                 islands: false,
                 partition: false,
                 edges: false,
+                cross_validation: false,
                 max_passes: 150,
                 tolerance: 2e-4,
             },

@@ -58,6 +58,11 @@ pub(super) trait Approach {
         false
     }
 
+    /// Whether motions are held by now, so that other weights hold for depth.
+    fn rests(&self) -> bool {
+        false
+    }
+
     /// Whether regions are taken for flat as yet, so that step 2 leaves depth alone.
     fn flat(&self) -> bool;
 

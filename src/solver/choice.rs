@@ -26,7 +26,7 @@ use super::evidence::Evidence;
 use super::region::{Region, certainty};
 
 /// n0, in pixels.
-pub(super) const CORRELATED: f64 = 6.0;
+const CORRELATED: f64 = 6.0;
 /// δ, in pixels.
 const INTERPOLATION: f64 = 0.03;
 /// ν, a share of the noise's variance.

@@ -35,6 +35,7 @@ const RELIEF: (f64, f64) = (1.5, 10.0);
 const LONGEST_STEP: f64 = 8.0;
 
 /// What a region is fitted to.
+#[derive(Clone)]
 pub(super) struct Evidence<'a> {
     pub scale: &'a Scale,
     /// Where the region's field is computed; grids have its size.
@@ -48,12 +49,23 @@ pub(super) struct Evidence<'a> {
     pub robust: bool,
     /// Whether shadows of other regions may pass over the region.
     pub shadowed: bool,
+    /// Pixels that motion and depth are not fitted to, though the region owns them.
+    pub withheld: Option<Grid<bool>>,
 }
 
 impl Evidence<'_> {
     /// The constraint around what `region` is at present.
     pub fn linearise(&self, region: &Region) -> Linearisation {
         region.linearise(self.scale, self.window)
+    }
+
+    /// The same without the pixels (x, y) of the window for which `withheld` says so.
+    pub fn without(&self, withheld: impl Fn(usize, usize) -> bool) -> Self {
+        let (width, height) = (self.owned.width(), self.owned.height());
+        Self {
+            withheld: Some(Grid::from_fn(width, height, withheld)),
+            ..self.clone()
+        }
     }
 
     /// How much brighter the region's pixels become, from their residuals: smooth over [`SHADE`] pixels.
@@ -93,9 +105,14 @@ impl Evidence<'_> {
         weight
     }
 
-    /// The weights that motion and depth are fitted with: ω, less where residuals are off together.
+    /// The weights that motion and depth are fitted with: ω, less where residuals are off together, and 0 where
+    /// pixels are withheld.
     pub fn fitting_weights(&self, linearisation: &Linearisation) -> Grid<f32> {
         let mut weight = self.weights(linearisation);
+        if let Some(withheld) = &self.withheld {
+            let each = weight.data_mut().iter_mut().zip(withheld.data());
+            each.filter(|(_, out)| **out).for_each(|(w, _)| *w = 0.0);
+        }
         if !(self.robust && self.shadowed) {
             return weight;
         }

@@ -73,6 +73,8 @@ pub struct Solver {
     refined: Vec<usize>,
     /// Passes that had been made each time that curves had settled.
     settled: Vec<usize>,
+    /// Passes that had been made each time that motions had come to rest.
+    rested: Vec<usize>,
     /// Passes that had been made when the curves were drawn last.
     drawn_at: usize,
     still: usize,
@@ -106,6 +108,7 @@ impl Solver {
             history: Vec::new(),
             refined: Vec::new(),
             settled: Vec::new(),
+            rested: Vec::new(),
             drawn_at: 0,
             still: 0,
             seconds: Seconds::default(),
@@ -146,6 +149,7 @@ impl Solver {
         };
         self.history.push(energy);
         let (scale, settled) = (self.approach.scale(), self.approach.settled());
+        let rests = self.approach.rests();
         if self
             .approach
             .end_pass(self.still >= STILL_PASSES, &self.options)
@@ -157,6 +161,9 @@ impl Solver {
         }
         if self.approach.settled() && !settled {
             self.settled.push(self.history.len());
+        }
+        if self.approach.rests() && !rests {
+            self.rested.push(self.history.len());
         }
         self.status = if !energy.is_finite() {
             Status::Diverged
@@ -266,6 +273,7 @@ impl Solver {
         self.history.clear();
         self.refined.clear();
         self.settled.clear();
+        self.rested.clear();
         self.drawn_at = 0;
         self.seconds = Seconds::default();
         self.resume();

@@ -60,6 +60,9 @@ pub struct Report {
     /// Passes that had been made each time that curves had settled: from then on brightness alone competes,
     /// and μ is less.
     pub settled: Vec<usize>,
+    /// Passes that had been made each time that motions had come to rest: from then on every region has a μ of
+    /// its own.
+    pub rested: Vec<usize>,
     /// Every region, the background first.
     pub regions: Vec<RegionReport>,
     /// The weights in force.
@@ -126,6 +129,7 @@ impl Report {
             history: solver.history.clone(),
             refined: solver.refined.clone(),
             settled: solver.settled.clone(),
+            rested: solver.rested.clone(),
             warnings: warnings(&regions),
             regions,
             weights: solver.approach.weights(),

@@ -18,8 +18,9 @@ const THRESHOLD_PASSES: usize = 4;
 const CHOOSING: usize = 2;
 /// The pass on the finest scale in which they are chosen again, depth being known in detail by then.
 const CHOOSING_AGAIN: usize = THRESHOLD_PASSES + 3;
-/// The pass on the finest scale in which regions find out how stiff their depth is.
-const LEARNING: usize = CHOOSING_AGAIN;
+/// The pass on the finest scale before which curves and motions are not done, and the one after which motions
+/// are held at the latest: curves that creep shall not keep depth waiting.
+const DONE: [usize; 2] = [CHOOSING_AGAIN + 2, CHOOSING_AGAIN + 7];
 /// The passes on the finest scale in which all curves move at once to the least partition: before (17) takes
 /// over, and once kinds of motion are final.
 const REPARTITIONING: [usize; 2] = [THRESHOLD_PASSES, CHOOSING_AGAIN + 1];
@@ -47,6 +48,8 @@ pub(super) struct Schedule {
     pass: usize,
     /// Whether curves have been drawn since this scale was reached.
     redrawn: bool,
+    /// The pass on this scale from which on motions are held.
+    resting: Option<usize>,
 }
 
 impl Schedule {
@@ -65,6 +68,7 @@ impl Schedule {
             level: start,
             pass: 0,
             redrawn: false,
+            resting: None,
         }
     }
 
@@ -100,9 +104,15 @@ impl Schedule {
                 .is_some_and(|deep| REPARTITIONING.contains(&deep))
     }
 
-    /// Whether regions find out how stiff their depth is.
+    /// Whether motions are held, and only depth and curves go on.
+    pub fn rests(&self) -> bool {
+        self.resting.is_some()
+    }
+
+    /// Whether regions find out how stiff their depth is: once, as soon as motions are held. Softer depth would
+    /// take motions along wherever it follows noise.
     pub fn learns(&self) -> bool {
-        self.level == 0 && self.deep() == Some(LEARNING)
+        self.resting == Some(self.pass)
     }
 
     /// Whether a curve may still leap anywhere.
@@ -182,12 +192,27 @@ impl Schedule {
 
     /// Whether there is more to do than waiting for all to stand still.
     pub fn unfinished(&self) -> bool {
-        !self.at_least(LEARNING + 2)
+        !self.at_least(DONE[0])
+    }
+
+    /// Holds motions from the next pass on where all is `still`, or has had passes enough; whether that is new.
+    pub fn comes_to_rest(&mut self, still: bool) -> bool {
+        let due = !self.rests() && (still || self.at_least(DONE[1]));
+        if due {
+            self.resting = Some(self.pass);
+        }
+        due
+    }
+
+    /// Lets motions go on, for settings that have changed.
+    pub fn stir(&mut self) {
+        self.resting = None;
     }
 
     /// Goes back to the first pass of this scale, for curves drawn anew.
     pub fn restart(&mut self) {
         self.pass = 0;
         self.redrawn = true;
+        self.resting = None;
     }
 }

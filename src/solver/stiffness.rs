@@ -1,37 +1,79 @@
-//! How stiff a region's depth is: the share of μ that its own depth bears out.
+//! How stiff a region's depth is: the share of μ under which it best foretells pixels that it has not seen.
 //!
-//! Taken as a prior with the precision μ/σ² per bend, smoothness has the greatest evidence (MacKay 1992) at
+//! A landscape bends everywhere, a wall nowhere, and what is faint needs more around it to be averaged with
+//! than what is clear. So depth is fitted under several shares of μ with a quarter of the region's pixels
+//! withheld, in blocks of [`SIDE`] pixels, the motion being held; every block is withheld once, and
 //!
 //! ```text
-//! μ = n0 σ² γ / S        S = Σ g(bend),   γ = Σ h/(h + Σc)
+//! CV(share) = Σ ρ(r²/v)  over the inner pixels of blocks, each foretold from its neighbours
 //! ```
 //!
-//! with γ the values of ρ that the data determine (`Edges::determined`) and n0 the pixels that one independent
-//! sample of noise spreads over. A landscape that bends everywhere so gets less smoothing than a body, and
-//! one of μ's that fits bodies does for both. It is found once, at full μ: weaker smoothing lets depth follow
-//! noise, which would speak for weaker smoothing still.
+//! with ρ the robust χ² (cross-validation, Stone 1974). Noise reaches over a pixel or two where frames are
+//! smoothed and interpolated, so that a rim of [`RIM`] pixels is not judged. Of shares whose CV differs from
+//! the least by no more than one standard error, blocks counting as independent, the stiffest is taken
+//! (Breiman et al. 1984): errors of the motion speak for softer depth as well, which would follow them.
 
-use super::choice::CORRELATED;
 use super::evidence::Evidence;
-use super::region::{Region, certainty};
+use super::region::Region;
 use crate::depth::FieldPrior;
 
-/// Stiffness is kept between these.
-const RANGE: [f64; 2] = [0.3, 1.0];
+/// Shares of μ that are tried, the stiffest first.
+const SHARES: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
+/// Side of a block, in pixels.
+const SIDE: usize = 8;
+/// Pixels inside a block's border that are not judged.
+const RIM: usize = 1;
+/// Steps of depth from where it is: the slope that is expected is a step behind.
+const STEPS: usize = 6;
 
-/// The share of μ that suits `region`, which has been fitted under `prior` at full μ.
-pub(super) fn supported(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
-    let line = evidence.linearise(region);
-    let weight = evidence.weights(&line);
-    let bends = region.bends(&line, evidence, &weight);
-    let edges = prior.edges(&bends);
-    let determined = edges.determined(&certainty(&line, &weight));
-    let variance = evidence.sigma * evidence.sigma;
-    // The bends' energy is μ S.
-    let share = CORRELATED * variance * determined / edges.energy(&bends, &evidence.owned);
-    if share.is_finite() {
-        share.clamp(RANGE[0], RANGE[1])
-    } else {
-        RANGE[1]
+/// The share of μ that suits `region`, which has been fitted under `prior` at full μ; 1 for one that does not
+/// translate.
+pub(super) fn foretelling(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
+    if !region.kind.translates() {
+        return SHARES[0];
     }
+    let trials = SHARES.map(|share| {
+        let prior = FieldPrior {
+            strength: share * prior.strength,
+            ..prior.clone()
+        };
+        misfits(region, evidence, &prior)
+    });
+    let total = |trial: &Vec<f64>| trial.iter().sum::<f64>();
+    let least = trials.iter().min_by(|a, b| total(a).total_cmp(&total(b)));
+    let suits = |trial: &Vec<f64>| {
+        let differences = trial.iter().zip(least.into_iter().flatten());
+        let (mut sum, mut square) = (0.0, 0.0);
+        for (a, b) in differences {
+            sum += a - b;
+            square += (a - b) * (a - b);
+        }
+        sum <= square.sqrt()
+    };
+    let stiffest = SHARES.iter().zip(&trials).find(|(_, trial)| suits(trial));
+    stiffest.map_or(SHARES[0], |(share, _)| *share)
+}
+
+/// Robust χ² of each block, foretold by what is around it.
+fn misfits(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> Vec<f64> {
+    let (width, height) = (evidence.owned.width(), evidence.owned.height());
+    let across = width.div_ceil(SIDE);
+    let mut blocks = vec![0.0; across * height.div_ceil(SIDE)];
+    for fold in 0..4 {
+        let withheld = |x: usize, y: usize| (x / SIDE) % 2 + 2 * ((y / SIDE) % 2) == fold;
+        let known = evidence.without(withheld);
+        let mut part = region.clone();
+        for _ in 0..STEPS {
+            part.fit_depth(&known, prior);
+        }
+        let line = evidence.linearise(&part);
+        let inner = |v: usize| (RIM..SIDE - RIM).contains(&(v % SIDE));
+        for (i, &own) in evidence.owned.data().iter().enumerate() {
+            let (x, y) = (i % width, i / width);
+            if own >= 1.0 && line.inside.data()[i] && withheld(x, y) && inner(x) && inner(y) {
+                blocks[y / SIDE * across + x / SIDE] += evidence.misfit(&line, i);
+            }
+        }
+    }
+    blocks
 }

@@ -99,7 +99,7 @@ interface Break {
 }
 
 /** Where energy became another sum, as far as a pass has been made since. */
-function breaks({ refined, settled, history }: Report): Break[] {
+function breaks({ refined, settled, rested, history }: Report): Break[] {
   const finer = refined.map((after, i) => {
     const name = `scale ${i + 2}`;
     return { after, name, place: ` on ${name}` };
@@ -109,7 +109,12 @@ function breaks({ refined, settled, history }: Report): Break[] {
     name: "settled",
     place: " once curves had settled",
   }));
-  const all = [...finer, ...still].sort((a, b) => a.after - b.after);
+  const held = rested.map((after) => ({
+    after,
+    name: "at rest",
+    place: " once motions were held",
+  }));
+  const all = [...finer, ...still, ...held].sort((a, b) => a.after - b.after);
   return all.filter(({ after }) => after < history.length);
 }
 

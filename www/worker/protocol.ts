@@ -82,6 +82,8 @@ export interface Report {
   refined: number[];
   /** Passes that had been made each time that curves had settled. */
   settled: number[];
+  /** Passes that had been made each time that motions had come to rest. */
+  rested: number[];
   regions: Region[];
   /** The weights in use, those chosen from the data included. */
   weights: Record<string, number>;

@@ -199,6 +199,7 @@ impl Layers {
             spread: self.noise.regions[k].max(self.weights.sigma),
             robust: options.robust,
             shadowed: k == 0 && self.regions.len() > 1 && self.schedule.level == 0,
+            withheld: None,
         }
     }
 
@@ -232,6 +233,13 @@ impl Layers {
             let line = evidence.linearise(&part);
             let certain = certainty(&line, &evidence.weights(&line));
             self.regions[k].take(&part, &window, &certain);
+        }
+    }
+
+    /// Full μ for every region again.
+    fn forget_stiffness(&mut self) {
+        for region in &mut self.regions {
+            region.stiffness = 1.0;
         }
     }
 

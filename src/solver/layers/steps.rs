@@ -28,6 +28,9 @@ impl Approach for Layers {
             self.measure_noise(&lines, options);
         }
         let schedule = self.schedule;
+        if schedule.rests() {
+            return;
+        }
         if schedule.deep().is_none() {
             if !schedule.begins() {
                 self.each_region(options, |region, evidence, _| {
@@ -65,7 +68,7 @@ impl Approach for Layers {
             let learns = options.mu.is_none() && self.schedule.learns();
             self.each_region(options, |region, evidence, prior| {
                 if learns {
-                    region.stiffness = stiffness::supported(region, evidence, prior);
+                    region.stiffness = stiffness::foretelling(region, evidence, prior);
                 }
                 region.fit_depth(evidence, prior);
                 region.normalise(&evidence.owned);
@@ -105,7 +108,7 @@ impl Approach for Layers {
         self.unclaimed = rivalry::unexplained(&xi, &self.labels, self.weights.sigma);
     }
 
-    fn end_pass(&mut self, _still: bool, options: &Options) -> bool {
+    fn end_pass(&mut self, still: bool, options: &Options) -> bool {
         if options.lighting && self.schedule.relights() {
             self.measure_lighting(options);
         }
@@ -113,6 +116,7 @@ impl Approach for Layers {
             self.refine();
         }
         self.schedule.unfinished()
+            || options.cross_validation && self.schedule.comes_to_rest(still)
     }
 
     fn reconsider(&mut self, options: &Options) {
@@ -124,6 +128,8 @@ impl Approach for Layers {
             }
         }
         self.weights = Weights::of_layers(self.noise.sigma, self.schedule.settled(), options);
+        self.schedule.stir();
+        self.forget_stiffness();
     }
 
     fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>) {
@@ -134,9 +140,7 @@ impl Approach for Layers {
         self.schedule.restart();
         self.regions
             .resize(level_sets.len() + 1, Region::new(width, height));
-        for region in &mut self.regions {
-            region.stiffness = 1.0;
-        }
+        self.forget_stiffness();
         self.noise.regions.resize(level_sets.len() + 1, 0.0);
         self.cover = None;
         self.unclaimed.data_mut().fill(false);
@@ -180,6 +184,10 @@ impl Approach for Layers {
 
     fn settled(&self) -> bool {
         self.schedule.settled()
+    }
+
+    fn rests(&self) -> bool {
+        self.schedule.rests()
     }
 
     fn flat(&self) -> bool {
