@@ -20,7 +20,7 @@ const CHOOSING: usize = 2;
 const CHOOSING_AGAIN: usize = THRESHOLD_PASSES + 3;
 /// The pass on the finest scale before which curves and motions are not done, and the one after which motions
 /// are held at the latest: curves that creep shall not keep depth waiting.
-const DONE: [usize; 2] = [CHOOSING_AGAIN + 2, CHOOSING_AGAIN + 7];
+const DONE: [usize; 2] = [CHOOSING_AGAIN + 2, CHOOSING_AGAIN + 12];
 /// The passes on the finest scale in which all curves move at once to the least partition: before (17) takes
 /// over, and once kinds of motion are final.
 const REPARTITIONING: [usize; 2] = [THRESHOLD_PASSES, CHOOSING_AGAIN + 1];

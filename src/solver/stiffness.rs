@@ -5,17 +5,19 @@
 //! withheld, in blocks of [`SIDE`] pixels, the motion being held; every block is withheld once, and
 //!
 //! ```text
-//! CV(share) = Σ ρ(r²/v)  over the inner pixels of blocks, each foretold from its neighbours
+//! CV(share) = Σ ω ρ(r²/v)  over the inner pixels of all blocks, each foretold from its neighbours
 //! ```
 //!
-//! with ρ the robust χ² (cross-validation, Stone 1974). Noise reaches over a pixel or two where frames are
+//! with ρ the robust χ² (cross-validation, Stone 1974). ω are the weights of the fit at full μ: a shadow, which it
+//! does not follow, shall not speak for depth that does. Noise reaches over a pixel or two where frames are
 //! smoothed and interpolated, so that a rim of [`RIM`] pixels is not judged. Of shares whose CV differs from
 //! the least by no more than one standard error, blocks counting as independent, the stiffest is taken
-//! (Breiman et al. 1984): errors of the motion speak for softer depth as well, which would follow them.
+//! (Breiman et al. 1984).
 
 use super::evidence::Evidence;
 use super::region::Region;
 use crate::depth::FieldPrior;
+use crate::grid::Grid;
 
 /// Shares of μ that are tried, the stiffest first.
 const SHARES: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
@@ -32,19 +34,19 @@ pub(super) fn foretelling(region: &Region, evidence: &Evidence, prior: &FieldPri
     if !region.kind.translates() {
         return SHARES[0];
     }
+    let judged = judged(region, evidence);
     let trials = SHARES.map(|share| {
         let prior = FieldPrior {
             strength: share * prior.strength,
             ..prior.clone()
         };
-        misfits(region, evidence, &prior)
+        foretold(region, evidence, &prior, &judged)
     });
     let total = |trial: &Vec<f64>| trial.iter().sum::<f64>();
     let least = trials.iter().min_by(|a, b| total(a).total_cmp(&total(b)));
     let suits = |trial: &Vec<f64>| {
-        let differences = trial.iter().zip(least.into_iter().flatten());
         let (mut sum, mut square) = (0.0, 0.0);
-        for (a, b) in differences {
+        for (a, b) in trial.iter().zip(least.into_iter().flatten()) {
             sum += a - b;
             square += (a - b) * (a - b);
         }
@@ -54,9 +56,27 @@ pub(super) fn foretelling(region: &Region, evidence: &Evidence, prior: &FieldPri
     stiffest.map_or(SHARES[0], |(share, _)| *share)
 }
 
-/// Robust χ² of each block, foretold by what is around it.
-fn misfits(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> Vec<f64> {
-    let (width, height) = (evidence.owned.width(), evidence.owned.height());
+/// ω of the pixels that are judged, 0 for all others.
+fn judged(region: &Region, evidence: &Evidence) -> Grid<f32> {
+    let weight = evidence.fitting_weights(&evidence.linearise(region));
+    let inner = |v: usize| (RIM..SIDE - RIM).contains(&(v % SIDE));
+    Grid::from_fn(weight.width(), weight.height(), |x, y| {
+        if inner(x) && inner(y) && evidence.owned[(x, y)] >= 1.0 {
+            weight[(x, y)]
+        } else {
+            0.0
+        }
+    })
+}
+
+/// The share of CV of each block under `prior`.
+fn foretold(
+    region: &Region,
+    evidence: &Evidence,
+    prior: &FieldPrior,
+    judged: &Grid<f32>,
+) -> Vec<f64> {
+    let (width, height) = (judged.width(), judged.height());
     let across = width.div_ceil(SIDE);
     let mut blocks = vec![0.0; across * height.div_ceil(SIDE)];
     for fold in 0..4 {
@@ -67,11 +87,11 @@ fn misfits(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> Vec<f64>
             part.fit_depth(&known, prior);
         }
         let line = evidence.linearise(&part);
-        let inner = |v: usize| (RIM..SIDE - RIM).contains(&(v % SIDE));
-        for (i, &own) in evidence.owned.data().iter().enumerate() {
+        for (i, &weight) in judged.data().iter().enumerate() {
             let (x, y) = (i % width, i / width);
-            if own >= 1.0 && line.inside.data()[i] && withheld(x, y) && inner(x) && inner(y) {
-                blocks[y / SIDE * across + x / SIDE] += evidence.misfit(&line, i);
+            if weight > 0.0 && line.inside.data()[i] && withheld(x, y) {
+                let misfit = f64::from(weight) * evidence.misfit(&line, i);
+                blocks[y / SIDE * across + x / SIDE] += misfit;
             }
         }
     }

@@ -1,7 +1,7 @@
 /**
  * The functional (7) falling, pass by pass.
  *
- * A finer scale has other pixels, smoothed less, and settled curves are weighed otherwise: energy is another
+ * A finer scale has other pixels, smoothed less, and settled curves and held motions have other weights: energy is another
  * sum from there on, so the line is broken.
  */
 
@@ -172,5 +172,5 @@ function inWords({ report }: Readonly<State>): string {
   if (begun.length === 0) return `${sentence(fall(0, undefined, ""))} ${left}`;
   const parts = [{ after: 0, place: " on scale 1" }, ...begun];
   const falls = parts.map(({ after, place }, i) => fall(after, parts[i + 1]?.after, place));
-  return `${sentence(falls.join(", "))} ${left} A dashed line is where a finer scale begins, with other pixels, or where curves have settled, with other weights: energy can be compared only between two lines.`;
+  return `${sentence(falls.join(", "))} ${left} A dashed line is where a finer scale begins, with other pixels, or where curves have settled or motions are held, with other weights: energy can be compared only between two lines.`;
 }

@@ -18,6 +18,8 @@ use crate::warp::pyramid;
 
 /// Joint steps in a pass.
 const JOINT_STEPS: usize = 2;
+/// Steps of depth alone in a pass in which motions are held: as many as depth has had before.
+const RESTING_STEPS: usize = JOINT_STEPS + 1;
 /// Pixels by which a region grows when all curves move to the least partition.
 const REACH: f32 = 1.0;
 
@@ -66,12 +68,19 @@ impl Approach for Layers {
     fn find_depth(&mut self, options: &Options) {
         if self.schedule.deep().is_some() {
             let learns = options.mu.is_none() && self.schedule.learns();
+            let steps = if self.schedule.rests() {
+                RESTING_STEPS
+            } else {
+                1
+            };
             self.each_region(options, |region, evidence, prior| {
                 if learns {
                     region.stiffness = stiffness::foretelling(region, evidence, prior);
                 }
-                region.fit_depth(evidence, prior);
-                region.normalise(&evidence.owned);
+                for _ in 0..steps {
+                    region.fit_depth(evidence, prior);
+                    region.normalise(&evidence.owned);
+                }
                 if options.lighting {
                     region.shade = evidence.shade(region);
                 }
@@ -115,8 +124,7 @@ impl Approach for Layers {
         if self.schedule.advance() {
             self.refine();
         }
-        self.schedule.unfinished()
-            || options.cross_validation && self.schedule.comes_to_rest(still)
+        self.schedule.unfinished() || options.cross_validation && self.schedule.comes_to_rest(still)
     }
 
     fn reconsider(&mut self, options: &Options) {
