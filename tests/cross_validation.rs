@@ -5,6 +5,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::options::Preset;
 use relievo::scene::{self, Sequence};
+#[cfg(not(target_arch = "wasm32"))]
 use relievo::score::{Scores, compare};
 use relievo::{FramePair, Options, RigidMotion, Solver, Status};
 
@@ -22,6 +23,7 @@ fn begun(sequence: &Sequence, cross_validation: bool) -> Solver {
     Solver::new(pair, sequence.truth.camera, &sequence.curves, options).unwrap()
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 fn ended(sequence: &Sequence, cross_validation: bool) -> Scores {
     let mut solver = begun(sequence, cross_validation);
     while solver.step() == Status::Running {}
@@ -32,6 +34,8 @@ fn motions(solver: &Solver) -> Vec<RigidMotion> {
     solver.interpretation().motions
 }
 
+// Four solves, some of a whole scene: natively is enough.
+#[cfg(not(target_arch = "wasm32"))]
 #[test]
 fn bodies_with_edges_are_smoothed_less_and_planes_are_not() {
     let bodies = scene::render("blocks", 240, 180).unwrap();
