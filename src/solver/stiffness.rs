@@ -28,16 +28,18 @@ const RIM: usize = 1;
 /// Steps of depth from where it is: the slope that is expected is a step behind.
 const STEPS: usize = 6;
 
-/// The share of μ that suits `region`, which has been fitted under `prior` at full μ; 1 for one that does not
-/// translate.
+/// The share of μ that suits `region`, which has been fitted under `prior` and the share that it has as yet; 1 for
+/// one that does not translate.
 pub(super) fn foretelling(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
     if !region.kind.translates() {
         return SHARES[0];
     }
     let judged = judged(region, evidence);
+    // Someone who takes depth's step by itself comes here again in the same pass.
+    let full = prior.strength / region.stiffness;
     let trials = SHARES.map(|share| {
         let prior = FieldPrior {
-            strength: share * prior.strength,
+            strength: share * full,
             ..prior.clone()
         };
         foretold(region, evidence, &prior, &judged)

@@ -124,7 +124,9 @@ test("runs to an end by itself and says which", async ({ opened: page }) => {
   await expect(page.locator("#status")).toContainText(/Converged|Out of iterations/);
   await expect(
     page.getByRole("img", { name: "Energy after each pass" }),
-  ).toHaveAccessibleDescription(/on scale 2, from .* once curves had settled, from .* once motions were held\./);
+  ).toHaveAccessibleDescription(
+    /on scale 2, from .* once curves had settled, from .* once motions were held\./,
+  );
   await expect(page.getByRole("button", { name: "Run" })).toBeVisible();
   await expect(page.locator("#announcer")).toContainText(/passes/);
 });

@@ -1,8 +1,8 @@
 /**
  * The functional (7) falling, pass by pass.
  *
- * A finer scale has other pixels, smoothed less, and settled curves and held motions have other weights: energy is another
- * sum from there on, so the line is broken.
+ * A finer scale has other pixels, smoothed less, and weights change once curves have settled and once motions
+ * are held: energy is another sum from there on, so the line is broken.
  */
 
 import uPlot from "uplot";
