@@ -58,6 +58,25 @@ fn bodies_with_edges_are_smoothed_less_and_planes_are_not() {
     }
 }
 
+// A whole scene again.
+#[cfg(not(target_arch = "wasm32"))]
+#[test]
+fn depth_taken_again_and_again_is_not_softened_again_and_again() {
+    let bodies = scene::render("blocks", 240, 180).unwrap();
+    let once = ended(&bodies, true);
+    let mut solver = begun(&bodies, true);
+    while solver.report().rested.is_empty() {
+        solver.step();
+    }
+    for _ in 0..4 {
+        solver.step_depth();
+    }
+    while solver.step() == Status::Running {}
+    let again = compare(&solver.interpretation(), &bodies.truth).unwrap();
+    let (once, again) = (once.aee.unwrap(), again.aee.unwrap());
+    assert!((again / once - 1.0).abs() < 0.1, "{again} px, {once} px");
+}
+
 #[test]
 fn motions_are_held_while_depth_goes_on_until_something_is_changed() {
     let sequence = planes();

@@ -20,13 +20,13 @@ use crate::depth::FieldPrior;
 use crate::grid::Grid;
 
 /// Shares of μ that are tried, the stiffest first.
-const SHARES: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
+const SHARES: [f64; 3] = [1.0, 0.5, 0.25];
 /// Side of a block, in pixels.
 const SIDE: usize = 8;
 /// Pixels inside a block's border that are not judged.
 const RIM: usize = 1;
-/// Steps of depth from where it is: the slope that is expected is a step behind.
-const STEPS: usize = 6;
+/// Steps of depth from one share to the next: the slope that is expected is a step behind.
+const STEPS: usize = 3;
 
 /// The share of μ that suits `region`, which has been fitted under `prior` and the share that it has as yet; 1 for
 /// one that does not translate.
@@ -34,16 +34,7 @@ pub(super) fn foretelling(region: &Region, evidence: &Evidence, prior: &FieldPri
     if !region.kind.translates() {
         return SHARES[0];
     }
-    let judged = judged(region, evidence);
-    // Someone who takes depth's step by itself comes here again in the same pass.
-    let full = prior.strength / region.stiffness;
-    let trials = SHARES.map(|share| {
-        let prior = FieldPrior {
-            strength: share * full,
-            ..prior.clone()
-        };
-        foretold(region, evidence, &prior, &judged)
-    });
+    let trials = trials(region, evidence, prior);
     let total = |trial: &Vec<f64>| trial.iter().sum::<f64>();
     let least = trials.iter().min_by(|a, b| total(a).total_cmp(&total(b)));
     let suits = |trial: &Vec<f64>| {
@@ -71,31 +62,35 @@ fn judged(region: &Region, evidence: &Evidence) -> Grid<f32> {
     })
 }
 
-/// The share of CV of each block under `prior`.
-fn foretold(
-    region: &Region,
-    evidence: &Evidence,
-    prior: &FieldPrior,
-    judged: &Grid<f32>,
-) -> Vec<f64> {
+/// For each share what each block adds to CV.
+fn trials(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> [Vec<f64>; SHARES.len()] {
+    let judged = judged(region, evidence);
+    // Someone who takes depth's step by itself comes here again in the same pass.
+    let full = prior.strength / region.stiffness;
     let (width, height) = (judged.width(), judged.height());
     let across = width.div_ceil(SIDE);
-    let mut blocks = vec![0.0; across * height.div_ceil(SIDE)];
+    let mut trials = SHARES.map(|_| vec![0.0; across * height.div_ceil(SIDE)]);
     for fold in 0..4 {
         let withheld = |x: usize, y: usize| (x / SIDE) % 2 + 2 * ((y / SIDE) % 2) == fold;
         let known = evidence.without(withheld);
         let mut part = region.clone();
-        for _ in 0..STEPS {
-            part.fit_depth(&known, prior);
-        }
-        let line = evidence.linearise(&part);
-        for (i, &weight) in judged.data().iter().enumerate() {
-            let (x, y) = (i % width, i / width);
-            if weight > 0.0 && line.inside.data()[i] && withheld(x, y) {
-                let misfit = f64::from(weight) * evidence.misfit(&line, i);
-                blocks[y / SIDE * across + x / SIDE] += misfit;
+        for (share, blocks) in SHARES.iter().zip(&mut trials) {
+            let prior = FieldPrior {
+                strength: share * full,
+                ..prior.clone()
+            };
+            for _ in 0..STEPS {
+                part.fit_depth(&known, &prior);
+            }
+            let line = evidence.linearise(&part);
+            for (i, &weight) in judged.data().iter().enumerate() {
+                let (x, y) = (i % width, i / width);
+                if weight > 0.0 && line.inside.data()[i] && withheld(x, y) {
+                    let misfit = f64::from(weight) * evidence.misfit(&line, i);
+                    blocks[y / SIDE * across + x / SIDE] += misfit;
+                }
             }
         }
     }
-    blocks
+    trials
 }
