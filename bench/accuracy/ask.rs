@@ -12,7 +12,7 @@ pub const HELP: &str = "\
 npm run accuracy -- [NAME…] [--preset best|paper] [--seed N] [--tsv FILE] [--data DIR]
 npm run accuracy -- --levers [NAME…] [--seed N]
 npm run accuracy -- --starts [NAME…] [--preset best|paper] [--seed N]
-npm run accuracy -- --auto|--find [NAME…] [--seed N]
+npm run accuracy -- --auto|--find|--focal [NAME…] [--seed N]
 npm run accuracy -- --export DIR [NAME…] [--seed N]
 
 Solves the built-in sequences and 20 random variants, and says how far each result is from the truth.
@@ -26,6 +26,7 @@ NAME          only these: blocks, carousel-1003, …
 --starts      how much the result depends on where the circles are drawn
 --auto        which curves are found where nobody draws any, and where `best` ends from them
 --find        the same, without solving
+--focal       which focal length is found
 --export DIR  solve nothing; write frames and truth into a folder for each sequence";
 
 /// What a run does.
@@ -44,6 +45,8 @@ pub enum Work {
         /// Whether to solve.
         solving: bool,
     },
+    /// Prints which focal length is found.
+    Focal,
     /// Writes frames and truth.
     Export(PathBuf),
 }
@@ -87,6 +90,7 @@ impl Asked {
                 "--starts" => asked.work = Work::Starts,
                 "--auto" => asked.work = Work::Automatic { solving: true },
                 "--find" => asked.work = Work::Automatic { solving: false },
+                "--focal" => asked.work = Work::Focal,
                 "--export" => asked.work = Work::Export(value()?.into()),
                 "--tsv" => asked.tsv = Some(value()?.into()),
                 "--data" => asked.data = Some(value()?.into()),

@@ -12,6 +12,7 @@ mod data;
 mod dice;
 mod export;
 mod figures;
+mod focal;
 mod levers;
 mod measure;
 mod overlap;
@@ -57,6 +58,7 @@ fn run(asked: &Asked) -> Result<(), Failure> {
         Work::Help => println!("{HELP}"),
         Work::Export(folder) => export(&cases, &folder)?,
         Work::Automatic { solving } => automatic::print(&cases, solving)?,
+        Work::Focal => focal::print(&cases)?,
         Work::Levers => levers::print(&cases)?,
         Work::Starts if asked.names.is_empty() => {
             starts::print(&starts::usual(&cases), &asked.presets)?;

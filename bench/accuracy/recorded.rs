@@ -5,7 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use relievo::file::{flo, pfm, png};
-use relievo::{Camera, Flow, Frame, Grid, Interpretation, RigidMotion, Shape};
+use relievo::start::focal_length;
+use relievo::{Camera, Flow, Frame, FramePair, Grid, Interpretation, RigidMotion, Shape};
 
 use crate::Failure;
 
@@ -16,6 +17,8 @@ pub struct Recorded {
     folder: &'static str,
     frames: [&'static str; 2],
     focal: f64,
+    /// Whether f is looked for, `focal` being a guess.
+    find: bool,
     /// The frame's middle where none is given.
     centre: Option<[f64; 2]>,
     curve: Curve,
@@ -80,10 +83,11 @@ pub static RECORDED: [Recorded; 6] = [
     // Its focal length is not known. The frames are cut from a rectified pair, so that far points move to the
     // left: through f = 420 no rigid motion with all depth before the camera comes closer than 0.31 px.
     Recorded {
-        name: "venus, f = 1500",
+        name: "venus, f found",
         frames: ["frame10.png", "frame11.png"],
+        find: true,
         flow: Some("flow10.flo"),
-        ..plain("venus", 1500.0)
+        ..plain("venus", 420.0)
     },
     // A cube on a turntable, one body.
     Recorded {
@@ -103,6 +107,7 @@ const fn plain(name: &'static str, focal: f64) -> Recorded {
         folder: name,
         frames: ["frame0.png", "frame1.png"],
         focal,
+        find: false,
         centre: None,
         curve: Curve::None,
         flow: None,
@@ -148,11 +153,17 @@ impl Recorded {
             let motion: Option<&RigidMotion> = motions.get(usize::from(label));
             motion.is_some_and(|m| m.translation.length() > 0.0)
         };
+        let mut camera = match self.centre {
+            Some([cx, cy]) => Camera::new(self.focal, cx, cy)?,
+            None => Camera::centred(self.focal, width, height)?,
+        };
+        if self.find {
+            let [first, second] = frames.clone();
+            let found = focal_length(&FramePair::new(first, second)?, &camera);
+            camera.focal = found.map_or(self.focal, |found| found.focal);
+        }
         let truth = Interpretation {
-            camera: match self.centre {
-                Some([cx, cy]) => Camera::new(self.focal, cx, cy)?,
-                None => Camera::centred(self.focal, width, height)?,
-            },
+            camera,
             confidence: labels.map(|label| f32::from(u8::from(translates(label)))),
             occluded: Grid::new(width, height, 0),
             labels,

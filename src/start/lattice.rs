@@ -21,6 +21,7 @@ const SEAM: f32 = 1.2;
 const FAR: f32 = 1e6;
 
 /// Where each patch is.
+#[derive(Clone)]
 pub(super) struct Lattice {
     /// Column and row of each patch.
     pub places: Vec<(usize, usize)>,

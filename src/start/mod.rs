@@ -3,8 +3,10 @@
 mod automatic;
 mod bodies;
 mod consensus;
+mod focal;
 mod lattice;
 mod likeness;
+mod look;
 mod outline;
 mod patches;
 mod rigid;
@@ -16,4 +18,5 @@ mod union;
 
 pub use automatic::automatic;
 pub use consensus::{dominant, inside};
+pub use focal::{FocalLength, focal_length};
 pub use patches::{Patch, patches};

@@ -15,8 +15,8 @@
 //! Σ weight { ((n·(w−Bfω))² − (n·(w−m))²) / nᵀCn + (tᵀC⁻¹t) (z − z')² }     n ⟂ t,  z' the nearest z allowed
 //! ```
 //!
-//! m is the motion of the patch's surface, from which z is read. The best direction is refined down to
-//! [`FINEST`]. w counts as the velocity half way along it, where (1) is right to second order.
+//! m is the motion of the patch's surface, from which z is read. The best directions are refined, as far
+//! as a [`Search`] goes. w counts as the velocity half way along it, where (1) is right to second order.
 
 use glam::DVec3;
 
@@ -26,8 +26,8 @@ use crate::motion::solve_positive;
 
 /// Directions tried on the half sphere.
 const DIRECTIONS: usize = 60;
-/// Last step of the refinement, in radians.
-const FINEST: f64 = 0.01;
+/// Directions whose cosine is larger, in size, are refined only once.
+const ALIKE: f64 = 0.9;
 /// Standard deviation of fω known beforehand, in spreads of all patches' displacements.
 const TURN: f64 = 4.0;
 /// z is within this factor of its median.
@@ -79,6 +79,28 @@ impl Witness {
     }
 }
 
+/// How hard the nearest motion is looked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Search {
+    /// Directions that are refined.
+    starts: usize,
+    /// Last step of the refinement, in radians.
+    finest: f64,
+}
+
+impl Search {
+    /// Enough to tell whether surfaces move as one.
+    pub const QUICK: Self = Self {
+        starts: 1,
+        finest: 0.01,
+    };
+    /// Enough to compare what one motion costs through one camera and through another.
+    pub const THOROUGH: Self = Self {
+        starts: 4,
+        finest: 0.001,
+    };
+}
+
 /// A rigid motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rigid {
@@ -95,21 +117,38 @@ pub(super) struct Rigid {
 impl Rigid {
     /// The motion nearest to all `witnesses`, with or without ω; `spread` is that of displacements in
     /// pixels. `None` without a witness.
-    pub fn search(witnesses: &[Witness], turns: bool, spread: f64) -> Option<Self> {
+    pub fn nearest(
+        witnesses: &[Witness],
+        turns: bool,
+        spread: f64,
+        search: Search,
+    ) -> Option<Self> {
         let judge = |d: DVec3| Self::along(witnesses, d.normalize(), turns, TURN * spread);
         let better = |a: &Self, b: &Self| a.excess.total_cmp(&b.excess);
-        let mut best = half_sphere().filter_map(judge).min_by(better)?;
-        let mut step = 0.5 * (2.0 * std::f64::consts::PI / DIRECTIONS as f64).sqrt();
-        while step > FINEST {
-            let d = best.direction;
-            let (a, b) = d.any_orthonormal_pair();
-            let around = [a, -a, b, -b].map(|side| d + step * side);
-            match around.into_iter().filter_map(judge).min_by(better) {
-                Some(found) if found.excess < best.excess => best = found,
-                _ => step *= 0.5,
+        let refined = |mut best: Self| {
+            let mut step = 0.5 * (2.0 * std::f64::consts::PI / DIRECTIONS as f64).sqrt();
+            while step > search.finest {
+                let d = best.direction;
+                let (a, b) = d.any_orthonormal_pair();
+                let around =
+                    [a, -a, b, -b, a + b, a - b, b - a, -a - b].map(|side| d + step * side);
+                match around.into_iter().filter_map(judge).min_by(better) {
+                    Some(found) if found.excess < best.excess => best = found,
+                    _ => step *= 0.5,
+                }
+            }
+            best
+        };
+        let mut tried: Vec<Self> = half_sphere().filter_map(judge).collect();
+        tried.sort_by(better);
+        let mut starts: Vec<Self> = Vec::new();
+        for one in tried {
+            let new = |s: &Self| s.direction.dot(one.direction).abs() < ALIKE;
+            if starts.len() < search.starts && starts.iter().all(new) {
+                starts.push(one);
             }
         }
-        Some(best)
+        starts.into_iter().map(refined).min_by(better)
     }
 
     /// The displacement nearest to its surface's that this motion allows a patch.

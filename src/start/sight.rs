@@ -77,6 +77,20 @@ impl Sights {
         sights
     }
 
+    /// The same patches, of a camera whose focal length is `focal`.
+    pub fn through(&self, focal: f64) -> Self {
+        let longer = self.focal / focal;
+        let all = self.all.iter().map(|sight| Sight {
+            ray: sight.ray.map(|r| longer * r),
+            ..*sight
+        });
+        Self {
+            all: all.collect(),
+            focal,
+            ..*self
+        }
+    }
+
     /// Multiplies every covariance by `factor`.
     pub fn distrust(&mut self, factor: f64) {
         let (middle, spread) = (self.middle, self.spread);

@@ -43,6 +43,14 @@ impl Surface {
         ]
     }
 
+    /// The same image motion, of rays `factor` times as long.
+    pub fn stretched(mut self, factor: f64) -> Self {
+        for (i, a) in self.coefficients.iter_mut().enumerate() {
+            *a /= factor.powi([0, 1, 2][usize::from(i >= 2) + usize::from(i >= 6)]);
+        }
+        self
+    }
+
     /// cost(w; m) of patch `i`.
     pub fn cost(&self, sights: &Sights, i: usize) -> f64 {
         sights.cost(i, self.flow(sights.all[i].ray))

@@ -161,6 +161,15 @@ impl Surfaces {
             energy: self.energy,
         }
     }
+
+    /// The same, of rays `factor` times as long.
+    pub fn stretched(&self, factor: f64) -> Self {
+        let all = self.all.iter().map(|surface| surface.stretched(factor));
+        Self {
+            all: all.collect(),
+            ..self.clone()
+        }
+    }
 }
 
 /// C_k for a surface: what each patch and its neighbours cost.

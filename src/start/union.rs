@@ -10,7 +10,7 @@
 //!
 //! What the patches cost more under the common motion is added.
 
-use super::rigid::{Rigid, Witness};
+use super::rigid::{Rigid, Search, Witness};
 use super::sight::Sights;
 use super::surface::{SHIFT, Surface, TERMS};
 use super::surfaces::Surfaces;
@@ -79,12 +79,14 @@ impl<'a> Union<'a> {
     }
 
     /// Cost as one body less cost apart; 0 of a single surface.
-    pub fn change(&self) -> f64 {
+    pub fn change(&self, search: Search) -> f64 {
         if self.members.len() == 1 {
             return 0.0;
         }
         let surface = TERMS.iter().map(|&terms| self.as_surface(terms));
-        let motion = [false, true].into_iter().filter_map(|t| self.as_motion(t));
+        let motion = [false, true]
+            .into_iter()
+            .filter_map(|t| self.as_motion(t, search));
         let together = surface.chain(motion).fold(f64::INFINITY, f64::min);
         together - self.apart()
     }
@@ -132,10 +134,10 @@ impl<'a> Union<'a> {
     }
 
     /// As one motion, with or without ω.
-    fn as_motion(&self, turns: bool) -> Option<f64> {
+    fn as_motion(&self, turns: bool, search: Search) -> Option<f64> {
         let witness = |p: &Asked| p.witness.for_many(self.stride);
         let witnesses: Vec<Witness> = self.patches.iter().map(witness).collect();
-        let rigid = Rigid::search(&witnesses, turns, self.sights.spread)?;
+        let rigid = Rigid::nearest(&witnesses, turns, self.sights.spread, search)?;
         let more = self.patches.iter().map(|p| {
             let flow = rigid.flow(&p.witness);
             self.stride * (self.sights.cost(p.index, flow) - p.own)
