@@ -9,7 +9,7 @@
 //! ```
 //!
 //! change being what [`Bodies`] costs, −2 log of a likelihood, and the rest −2 log of how lenses are spread
-//! about a field of view of 53°. First every √2 from [`SHORTEST`] to [`LONGEST`] sides, then ever
+//! about a field of view of 53°. First every ⁴√2 from [`SHORTEST`] to [`LONGEST`] sides, then ever
 //! closer to the best. Most frames tell little of f, since little turns in them: only what beats by
 //! [`DECISIVE`] the f they were given with, which is held to be as usual as any, counts.
 
@@ -37,9 +37,9 @@ const CLOSER: usize = 2;
 pub struct FocalLength {
     /// f in pixels.
     pub focal: f64,
-    /// The shortest that was tried and explains the frames nearly as well.
+    /// Shorter than any that explains the frames nearly as well, among those tried.
     pub least: f64,
-    /// The longest.
+    /// Longer than any.
     pub greatest: f64,
 }
 
@@ -54,7 +54,7 @@ pub fn focal_length(pair: &FramePair, camera: &Camera) -> Option<FocalLength> {
         let unusual = (focal / side).ln() / SPREAD.ln();
         (focal, change(focal) + unusual * unusual)
     };
-    let mut step = std::f64::consts::SQRT_2;
+    let mut step = std::f64::consts::SQRT_2.sqrt();
     let count = ((LONGEST / SHORTEST).ln() / step.ln()).round() as i32;
     let mut tried: Vec<(f64, f64)> = (0..=count)
         .map(|i| cost(side * SHORTEST * step.powi(i)))
@@ -66,11 +66,14 @@ pub fn focal_length(pair: &FramePair, camera: &Camera) -> Option<FocalLength> {
         tried.extend([focal / step, focal * step].map(cost));
     }
     let (focal, best) = least(&tried)?;
-    let likely = tried.iter().filter(|(_, c)| *c <= best + DOUBTFUL);
-    let (shortest, longest) = likely.fold((focal, focal), |(a, b), (f, _)| (a.min(*f), b.max(*f)));
+    // The ends lie beyond all that is likely: at the next that was tried and is not.
+    tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let likely = |(_, cost): &(f64, f64)| *cost <= best + DOUBTFUL;
+    let first = tried.iter().position(likely)?.saturating_sub(1);
+    let last = (tried.iter().rposition(likely)? + 1).min(tried.len() - 1);
     (change(camera.focal) - best >= DECISIVE).then_some(FocalLength {
         focal,
-        least: shortest,
-        greatest: longest,
+        least: tried[first].0,
+        greatest: tried[last].0,
     })
 }

@@ -96,8 +96,8 @@ impl Search {
     };
     /// Enough to compare what one motion costs through one camera and through another.
     pub const THOROUGH: Self = Self {
-        starts: 4,
-        finest: 0.001,
+        starts: 2,
+        finest: 0.002,
     };
 }
 
@@ -207,8 +207,11 @@ impl Rigid {
             rigid.surprise = rigid.turn.length_squared() / (turn * turn);
         }
         let mut depths: Vec<f64> = witnesses.iter().map(|w| rigid.depth(w)).collect();
-        depths.sort_by(f64::total_cmp);
-        let median = *depths.get(depths.len() / 2)?;
+        let middle = depths.len() / 2;
+        if depths.is_empty() {
+            return None;
+        }
+        let (_, &mut median, _) = depths.select_nth_unstable_by(middle, f64::total_cmp);
         let [low, high] = [median / NEAR_AND_FAR, median * NEAR_AND_FAR];
         rigid.depths = [low.min(high), low.max(high)];
         for witness in witnesses {
