@@ -23,7 +23,10 @@ BMP or TIFF, from ${minSide}×${minSide} to ${maxSide}×${maxSide} pixels.
 
 Frames and curves:
 ${table([
-  ["--focal F", "focal length in pixels; about the frame's width when it is not known"],
+  [
+    "--focal F",
+    "focal length in pixels; auto looks for it in the frames and takes their longer side where they do not tell it",
+  ],
   ["--centre X,Y", "principal point; the frame's centre when left out"],
   ["--circle X,Y,R", `a curve to start from; up to ${maxCurves} curves, each on one moving object`],
   ["--polygon X1,Y1,X2,Y2,X3,Y3,…", "a curve to start from"],

@@ -27,7 +27,7 @@ const OWN = /** @type {const} */ ({
 export function solve(core, words) {
   const { values, operands } = parse(words, { ...known(core), ...OWN });
   const [first, second] = framesOf(operands);
-  const camera = cameraOf(values);
+  const asked = cameraOf(values);
   const drawn = shapesOf(words, values);
   const options = given(core, { "max-passes": values["iterations"], ...values });
   if (values["preset"] !== undefined) options["preset"] = values["preset"];
@@ -35,6 +35,7 @@ export function solve(core, words) {
   const frames = /** @type {[Frame, Frame]} */ (
     [first, second].map((path) => core.Frame.decode(read(path), path))
   );
+  const { camera, focal } = seenBy(core, frames, asked);
   const seen = JSON.stringify(camera);
   const found = values["auto"] ? JSON.parse(core.findCurves(...frames, seen)) : null;
   const solver = new core.Solver(
@@ -48,6 +49,7 @@ export function solve(core, words) {
   run(solver, mostPasses(core, options));
   const files = solver.files("{}");
   write(out, files);
+  if (focal) console.log(focal);
   if (found) announce(found);
   summarise(JSON.parse(solver.report()), out, files);
 }
@@ -69,13 +71,32 @@ function framesOf(operands) {
 function cameraOf({ focal, centre }) {
   if (focal === undefined) {
     throw new UsageError(
-      "the focal length is missing; give it in pixels with --focal F (about the frame's width when it is not known)",
+      "the focal length is missing; give it in pixels with --focal F, or have it looked for with --focal auto",
     );
   }
-  const [f] = numbers("focal", "F", focal, (count) => count === 1);
+  const [f] = focal === "auto" ? [] : numbers("focal", "F or auto", focal, (count) => count === 1);
   if (centre === undefined) return { focal: f };
   const [cx, cy] = numbers("centre", "X,Y", centre, (count) => count === 2);
   return { focal: f, cx, cy };
+}
+
+/**
+ * The camera with its focal length, looked for where none was given, and what to say of that.
+ * @param {Core} core
+ * @param {[Frame, Frame]} frames
+ * @param {{ focal: number | undefined, cx?: number, cy?: number }} asked
+ */
+function seenBy(core, frames, asked) {
+  if (asked.focal !== undefined) return { camera: asked, focal: null };
+  const guess = { ...asked, focal: Math.max(frames[0].width, frames[0].height) };
+  const found = JSON.parse(core.findFocal(...frames, JSON.stringify(guess)));
+  if (!found) {
+    const focal = `the frames do not tell the focal length, taken for the longer side: --focal ${guess.focal}`;
+    return { camera: guess, focal };
+  }
+  const [f, least, greatest] = [found.focal, found.least, found.greatest].map(Math.round);
+  const focal = `focal length found, between ${least} and ${greatest} pixels: --focal ${f}`;
+  return { camera: { ...asked, focal: f }, focal };
 }
 
 /**

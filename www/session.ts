@@ -71,6 +71,7 @@ function adopt(source: Source, opened: Opened): void {
     truth: opened.truth,
     shapes: opened.setup.shapes,
     camera: opened.setup.camera,
+    focalFinding: null,
     selected: null,
     past: [],
     future: [],

@@ -63,6 +63,8 @@ export interface State {
   /** What the last look for curves came to, until they change. */
   finding: string | null;
   camera: Camera;
+  /** What the last look for the focal length came to, until it changes. */
+  focalFinding: string | null;
   options: OptionValues;
 
   /** What the page is waiting for, as a phrase; `null` when it waits for nothing. */
@@ -135,6 +137,7 @@ export const store = new Store({
   future: [],
   finding: null,
   camera: { focal: 320 },
+  focalFinding: null,
   options: {},
   busy: "Loading",
   running: false,

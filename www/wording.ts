@@ -1,6 +1,6 @@
 /** What the page says in whole sentences. */
 
-import type { Report } from "./worker/protocol";
+import type { FocalLength, Report } from "./worker/protocol";
 
 /**
  * The core's sentences begin small and end bare, so that they fit into others. One that begins with
@@ -24,6 +24,13 @@ export function ending(report: Report): string {
     case "running":
       return `Paused ${after}.`;
   }
+}
+
+/** What a look for the focal length came to. */
+export function focalFindingOf(found: FocalLength | null): string {
+  if (!found) return "These frames do not tell f: it stays.";
+  const [f, least, greatest] = [found.focal, found.least, found.greatest].map(Math.round);
+  return `f is about ${f}\u00a0px, between ${least} and ${greatest}: so the frames fit best.`;
 }
 
 /** What a look for curves came to. */

@@ -13,6 +13,8 @@
 //! closer to the best. Most frames tell little of f, since little turns in them: only what beats by
 //! [`DECISIVE`] the f they were given with, which is held to be as usual as any, counts.
 
+use serde::Serialize;
+
 use super::bodies::Bodies;
 use super::look::Look;
 use super::rigid::Search;
@@ -33,7 +35,7 @@ const DOUBTFUL: f64 = 4.0;
 const CLOSER: usize = 2;
 
 /// A focal length that was found.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FocalLength {
     /// f in pixels.
     pub focal: f64,

@@ -1,4 +1,4 @@
-//! Curves to start from, found in the frames.
+//! Curves to start from and a focal length, found in the frames.
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -15,4 +15,13 @@ pub fn find_curves(first: &Frame, second: &Frame, camera: &str) -> Result<String
     let pair = FramePair::new(first.0.clone(), second.0.clone())?;
     let camera = camera_of(&pair, camera)?;
     Ok(write(&start::automatic(&pair, &camera)))
+}
+
+/// The focal length at which rigid motions explain the frames best, `{"focal", "least", "greatest"}` in
+/// pixels: f, and the ends of its range. `null` where that of `camera`, a guess, does about as well.
+#[wasm_bindgen(js_name = findFocal)]
+pub fn find_focal(first: &Frame, second: &Frame, camera: &str) -> Result<String, Error> {
+    let pair = FramePair::new(first.0.clone(), second.0.clone())?;
+    let camera = camera_of(&pair, camera)?;
+    Ok(write(&start::focal_length(&pair, &camera)))
 }

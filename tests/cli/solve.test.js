@@ -6,6 +6,7 @@ import { join } from "node:path";
 import { before, describe, test } from "node:test";
 
 import { Frame } from "../../cli/index.js";
+import { walls } from "../walls.js";
 import { file, folder, pgm, relievo, waves } from "./relievo.js";
 
 const [WIDTH, HEIGHT] = [64, 48];
@@ -184,7 +185,7 @@ describe("a wrong command line ends with 2 and a sentence", () => {
     ["no focal length", pair, /focal length is missing/],
     ["a focal length of 0", [...pair, "--focal", "0"], /focal length is 0/],
     ["a negative focal length", [...pair, "--focal", "-5"], /focal length is -5/],
-    ["a focal length that is no number", [...pair, "--focal", "wide"], /--focal wide is not/],
+    ["a focal length that is no number", [...pair, "--focal", "wide"], /--focal wide.*F or auto/],
     ["an infinite focal length", [...pair, "--focal", "Infinity"], /--focal Infinity is not/],
     ["half a centre", [...pair, ...FOCAL, "--centre", "5"], /--centre 5 is not of the form X,Y/],
     ["half a circle", [...pair, ...FOCAL, "--circle", "5,5"], /is not of the form X,Y,R/],
@@ -229,6 +230,29 @@ describe("--auto", () => {
     const again = relievo(...frames, ...words, ...named.flatMap((points) => ["--polygon", points]));
     assert.equal(again.status, 0);
     assert.deepEqual(readFileSync(join(out, "labels.png")), labels);
+  });
+});
+
+describe("--focal auto", () => {
+  const out = ["--iterations", "1", "--out", join(folder, "focal")];
+
+  test("finds the focal length where scenery before a turning camera tells it", () => {
+    const [width, truth] = [240, 3];
+    const frames = /** @type {const} */ ([0, 1]).map((t) =>
+      file(`walls${t}.pgm`, pgm(width, 180, walls(width, truth, t))),
+    );
+    const found = relievo(...frames, "--focal", "auto", ...out);
+    assert.equal(found.status, 0, found.stderr);
+    const line = /^focal length found, between (\d+) and (\d+) pixels: --focal (\d+)$/m;
+    const [, least = 0, greatest = 0, focal = 0] = (line.exec(found.stdout) ?? []).map(Number);
+    assert.ok(least < truth * width && truth * width < greatest, found.stdout);
+    assert.ok(least < focal && focal < greatest);
+  });
+
+  test("takes the longer side where nothing tells it, and says so", () => {
+    const kept = relievo(first, second, "--focal", "auto", ...out);
+    assert.equal(kept.status, 0, kept.stderr);
+    assert.match(kept.stdout, /^the frames do not tell the focal length.*--focal 64$/m);
   });
 });
 

@@ -2,7 +2,19 @@
 
 import type { Page } from "@playwright/test";
 
-import { expect, framesOf, look, plainPng, png, read, runPasses, test, until } from "./helpers";
+import { walls } from "../walls.js";
+import {
+  expect,
+  framesOf,
+  look,
+  PATIENCE,
+  plainPng,
+  png,
+  read,
+  runPasses,
+  test,
+  until,
+} from "./helpers";
 
 const first = (page: Page) => page.locator("#file-0");
 const second = (page: Page) => page.locator("#file-1");
@@ -197,4 +209,40 @@ test("focal length and field of view go together", async ({ opened: page }) => {
   await page.getByLabel("Focal length f, px").fill(String(width));
   await page.getByLabel("Focal length f, px").press("Enter");
   await expect(page.getByLabel("Field of view, °")).toHaveValue("53.1");
+});
+
+test("the focal length is found where the frames tell it, and kept where they do not", async ({
+  opened: page,
+}) => {
+  const find = page.getByRole("button", { name: "Find f" });
+  const field = page.getByLabel("Focal length f, px");
+  const usual = await field.inputValue();
+  await find.click();
+  await expect(page.locator("#camera")).toContainText("do not tell f");
+  expect(await field.inputValue()).toBe(usual);
+
+  const [width, height, truth] = [240, 180, 3];
+  const frames = ([0, 1] as const).map((t) => {
+    const grey = walls(width, truth, t);
+    const pixels = Array.from({ length: width * height }, (_, i) =>
+      Math.round(grey(i % width, Math.floor(i / width))),
+    );
+    return Buffer.concat([Buffer.from(`P5\n${width} ${height}\n255\n`), Buffer.from(pixels)]);
+  });
+  await first(page).setInputFiles(
+    frames.map((buffer, t) => ({
+      name: `walls${t}.pgm`,
+      mimeType: "image/x-portable-graymap",
+      buffer,
+    })),
+  );
+  await ownAreOpen(page);
+  await expect(page.locator("#camera")).not.toContainText("do not tell f");
+  expect(await field.inputValue()).toBe(String(width));
+  await find.click();
+  await expect(page.locator("#camera")).toContainText("so the frames fit best", {
+    timeout: PATIENCE,
+  });
+  expect(Math.abs(Math.log(Number(await field.inputValue()) / (truth * width)))).toBeLessThan(0.4);
+  await expect(message(page)).toBeHidden();
 });

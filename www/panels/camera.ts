@@ -1,9 +1,10 @@
 /** Focal length in pixels, the field of view it means, and, for those who know it, the principal point. */
 
-import { byId, make } from "../dom";
+import { announce, byId, make } from "../dom";
 import { fixed } from "../format";
-import { configure } from "../session";
+import { ask, configure } from "../session";
 import { store } from "../store";
+import { focalFindingOf } from "../wording";
 
 /** 2 arctan(w / 2f), in degrees. */
 const fieldOfView = (width: number, focal: number) =>
@@ -25,19 +26,16 @@ export function mountCamera(): void {
     make("div", { class: "pairing" }, cx.field, cy.field),
     make("p", { class: "note" }, "Where the optical axis meets the frame; as a rule its centre."),
   );
+  const note = make("p", { class: "note" });
   byId("camera").append(
     make("div", { class: "pairing" }, focal.field, view.field),
     slider,
-    make(
-      "p",
-      { class: "note" },
-      "Taken from the sequence, or guessed for frames of your own. A wrong f bends depth more than outlines.",
-    ),
+    note,
     advanced,
   );
 
   const set = (camera: Partial<typeof store.state.camera>) => {
-    store.update({ camera: { ...store.state.camera, ...camera } });
+    store.update({ camera: { ...store.state.camera, ...camera }, focalFinding: null });
     void configure();
   };
   focal.input.addEventListener("change", () => set({ focal: asNumber(focal.input) ?? 0 }));
@@ -50,6 +48,7 @@ export function mountCamera(): void {
     focal.input.value = f.toFixed(1);
     view.input.value = Number(slider.value).toFixed(1);
   });
+  byId("find-focal").addEventListener("click", () => void findFocal());
   cx.input.addEventListener("change", () => set({ cx: asNumber(cx.input) }));
   cy.input.addEventListener("change", () => set({ cy: asNumber(cy.input) }));
 
@@ -66,7 +65,36 @@ export function mountCamera(): void {
       cy.input.value = plain(camera.cy ?? (height - 1) / 2);
     },
   );
+  store.watch(
+    ({ focalFinding }) => [focalFinding],
+    ({ focalFinding }) => {
+      note.textContent = focalFinding ?? GUESSED;
+    },
+  );
+  store.watch(
+    ({ frames, busy, running }) => [frames, busy, running],
+    ({ frames, busy, running }) => {
+      byId<HTMLButtonElement>("find-focal").disabled = !frames || busy !== null || running;
+    },
+  );
 }
+
+/** Takes the focal length that the frames tell, if they do. */
+async function findFocal(): Promise<void> {
+  const { camera } = store.state;
+  const phrase = "Looking for the focal length";
+  const answer = await ask(phrase, async (service) => [await service.findFocal(camera)]);
+  if (!answer) return;
+  const [found = null] = answer;
+  const focalFinding = focalFindingOf(found);
+  if (found) store.update({ camera: { ...store.state.camera, focal: found.focal }, focalFinding });
+  else store.update({ focalFinding });
+  announce(focalFinding);
+  if (found) await configure();
+}
+
+const GUESSED =
+  "Taken from the sequence, or guessed for frames of your own. A wrong f bends depth more than outlines.";
 
 /** An empty field is no number: without f the core says what it wants, without centre it takes its own. */
 function asNumber(input: HTMLInputElement): number | undefined {

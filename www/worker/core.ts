@@ -11,6 +11,7 @@ import type { Catalogues } from "./protocol";
 
 export {
   findCurves,
+  findFocal,
   Frame,
   hornSchunck,
   panicMessage,

@@ -5,10 +5,20 @@
  * opened or configured is built anew before the old is let go, so an error leaves things as they were.
  */
 
-import { findCurves, Frame, hornSchunck, Scene, Solver, type Baseline, type Picture } from "./core";
+import {
+  findCurves,
+  findFocal,
+  Frame,
+  hornSchunck,
+  Scene,
+  Solver,
+  type Baseline,
+  type Picture,
+} from "./core";
 import type {
   Camera,
   Contour,
+  FocalLength,
   MeshData,
   Opened,
   Part,
@@ -100,6 +110,12 @@ export class Engine {
   find(camera: Camera): Shape[] {
     const { first, second } = this.present().owned;
     return JSON.parse(findCurves(first, second, JSON.stringify(camera))) as Shape[];
+  }
+
+  /** The focal length, where the frames tell it. */
+  findFocal(camera: Camera): FocalLength | null {
+    const { first, second } = this.present().owned;
+    return JSON.parse(findFocal(first, second, JSON.stringify(camera))) as FocalLength | null;
   }
 
   step(part: Part): Status {

@@ -19,6 +19,13 @@ export interface Camera {
   cy?: number;
 }
 
+/** A focal length that was found, and the ends of its range, in pixels. */
+export interface FocalLength {
+  focal: number;
+  least: number;
+  greatest: number;
+}
+
 /** Only what differs from the preset; `null` means "chosen from the data". */
 export type OptionValues = Record<string, number | string | boolean | null>;
 
@@ -239,6 +246,8 @@ export interface Service {
   open(source: Source, keep: Setup | null): Promise<Opened>;
   /** Curves to start from; none where one motion explains both frames. The solver stays as it is. */
   find(camera: Camera): Promise<Shape[]>;
+  /** The focal length, where the frames tell that it is not `camera`'s. The solver stays as it is. */
+  findFocal(camera: Camera): Promise<FocalLength | null>;
   configure(setup: Setup): Promise<void>;
   look(wanted: Wanted): Promise<void>;
   /** Runs on, or afresh when it had come to an end. */

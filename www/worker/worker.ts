@@ -172,6 +172,8 @@ const service: Service = {
 
   find: (camera) => guard(() => engine.find(camera)),
 
+  findFocal: (camera) => guard(() => engine.findFocal(camera)),
+
   configure: (setup) =>
     guard(() => {
       configure(setup);
