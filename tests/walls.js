@@ -6,8 +6,8 @@ const WALLS = /** @type {const} */ ([
   [0.6, -1, -1, 0.3, 2],
   [0.3, -9, -9, 9, 9],
 ]);
-/** How far the camera shifts and turns: what a wall at 1, and every wall, move by, in widths. */
-const [SHIFT, TURN] = [0.03, 0.035];
+/** What a wall at 1 moves by to the right, and what every wall does to the right and down, in widths. */
+const [SHIFT, RIGHT, DOWN] = [0.03, 0.035, 0.01];
 
 /**
  * Brightness at a pixel of the first frame (`t` = 0) or of the second (1), 4 : 3; `focal` in widths.
@@ -16,20 +16,28 @@ const [SHIFT, TURN] = [0.03, 0.035];
  * @param {0 | 1} t
  */
 export function walls(width, focal, t) {
-  const height = (3 * width) / 4;
-  const angle = (t * TURN) / focal;
-  const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
-  const shift = (t * SHIFT) / focal;
-  /** Turns back about the y axis. @param {number} x @param {number} z */
-  const back = (x, z) => [cos * x - sin * z, sin * x + cos * z];
+  const [cx, cy] = [(width - 1) / 2, (0.75 * width - 1) / 2];
+  /** What the camera saw in a direction before it turned. @param {number[]} ray */
+  const back = ([x = 0, y = 0, z = 0]) => {
+    const [right, down] = [(t * RIGHT) / focal, (t * DOWN) / focal];
+    const [py, pz] = [
+      Math.cos(down) * y - Math.sin(down) * z,
+      Math.sin(down) * y + Math.cos(down) * z,
+    ];
+    return [
+      Math.cos(right) * x - Math.sin(right) * pz,
+      py,
+      Math.sin(right) * x + Math.cos(right) * pz,
+    ];
+  };
+  const [shiftX = 0, shiftY = 0, shiftZ = 0] = back([(t * SHIFT) / focal, 0, 0]);
   return (/** @type {number} */ px, /** @type {number} */ py) => {
-    const row = (py - (height - 1) / 2) / (focal * width);
-    const [rayX = 0, rayZ = 1] = back((px - (width - 1) / 2) / (focal * width), 1);
-    const [shiftX = 0, shiftZ = 0] = back(shift, 0);
+    const ray = [(px - cx) / (focal * width), (py - cy) / (focal * width), 1];
+    const [rayX = 0, rayY = 0, rayZ = 1] = back(ray);
     for (const [k, [rho, left, top, right, bottom]] of WALLS.entries()) {
       const along = (1 / rho + shiftZ) / rayZ;
       const x = 0.5 + focal * rho * (along * rayX - shiftX);
-      const y = 0.375 + focal * rho * along * row;
+      const y = 0.375 + focal * rho * (along * rayY - shiftY);
       if (x >= left && x < right && y >= top && y < bottom)
         return texture(320 * x + 500 * k, 320 * y);
     }
