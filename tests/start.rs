@@ -153,7 +153,7 @@ fn a_curve_finds_the_minority_that_it_only_partly_covers() {
     let own: f64 = weight.iter().zip(&within).map(|(a, b)| a * b).sum();
     let total: f64 = weight.iter().sum();
     assert!(own > 4.0 && own < 0.6 * total, "{own} of {total}");
-    let found = inside(&camera(), &patches, &weight, &most);
+    let found = inside(&camera(), &patches, &weight, &most, &[]);
     let minority: Vec<Patch> = patches
         .iter()
         .zip(&within)
@@ -167,5 +167,44 @@ fn a_curve_finds_the_minority_that_it_only_partly_covers() {
     assert!(off < 0.2 * before, "off by {off} of {before} px");
     // Where there is no patch to tell, the background's motion is as good as any.
     let nothing = vec![0.0; patches.len()];
-    assert_eq!(inside(&camera(), &patches, &nothing, &most), most);
+    assert_eq!(inside(&camera(), &patches, &nothing, &most, &[]), most);
+}
+
+#[test]
+fn a_curve_half_on_what_another_is_on_finds_its_own() {
+    let most = motion([0.0; 3], [0.0; 3]);
+    let few = motion([-0.02, 0.02, 0.0], [0.0; 3]);
+    let rival = motion([0.05, 0.01, 0.0], [0.0; 3]);
+    let (mut patches, within) = crowd(&most, &few);
+    for p in patches.iter_mut().filter(|p| p.x > 78.0) {
+        let (u, v) = camera().image_motion(&rival, f64::from(p.x), f64::from(p.y), 1.0);
+        p.motion = [u as f32, v as f32];
+    }
+    let weight: Vec<f64> = patches
+        .iter()
+        .map(|p| f64::from((p.x - 84.0).hypot(p.y - 40.0) < 18.0))
+        .collect();
+    let minority: Vec<Patch> = patches
+        .iter()
+        .zip(&within)
+        .filter(|(p, w)| **w > 0.0 && p.x <= 78.0)
+        .map(|(p, _)| *p)
+        .collect();
+    let off = |others: &[RigidMotion], truth: &RigidMotion| {
+        let found = inside(&camera(), &patches, &weight, &most, others);
+        apart(&found, truth, &minority)
+    };
+    let before = apart(&few, &rival, &minority);
+    assert!(
+        off(&[], &rival) < 0.2 * before,
+        "most of the curve is on the other thing"
+    );
+    assert!(off(&[rival], &few) < 0.2 * before);
+    // With nothing of its own in it, the other's is better than none.
+    let weight: Vec<f64> = patches
+        .iter()
+        .map(|p| f64::from((p.x - 100.0).hypot(p.y - 40.0) < 12.0))
+        .collect();
+    let found = inside(&camera(), &patches, &weight, &most, &[rival]);
+    assert!(apart(&found, &rival, &minority) < 0.2 * before);
 }

@@ -30,7 +30,7 @@ export function ending(report: Report): string {
 export function focalFindingOf(found: FocalLength | null): string {
   if (!found) return "These frames do not tell f: it stays.";
   const [f, least, greatest] = [found.focal, found.least, found.greatest].map(Math.round);
-  return `f is about ${f}\u00a0px, between ${least} and ${greatest}: so the frames fit best.`;
+  return `f is about ${f}\u00a0px (${least} to ${greatest}), as far as these frames tell.`;
 }
 
 /** What a look for curves came to. */

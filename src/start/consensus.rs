@@ -1,5 +1,5 @@
-//! The motions that most patches agree on: of the whole frame, and of those inside a curve that the
-//! background does not explain.
+//! The motions that most patches agree on: of the whole frame, and of those inside a curve that neither the
+//! background nor, if possible, another curve's motion explains.
 //!
 //! A motion is taken for flat here (ρ = 1), so that its displacement is linear in (T, ω) by (1). Samples
 //! of patches propose motions, all patches judge them by Σ min(e², τ²), e² = (w−ŵ)ᵀ P (w−ŵ) with P the
@@ -20,6 +20,9 @@ const KNOWN: f64 = 0.15;
 const PROPOSALS: usize = 300;
 /// Standard deviation of f·ω known beforehand, in pixels: of the frame's motion and of a small region's.
 const ROTATION: [f64; 2] = [20.0, 1.0];
+/// What a patch counts that another curve's motion explains: each curve is on a thing of its own, though
+/// it may lie half on another's.
+const SHARED: f64 = 0.25;
 /// Rounds of fitting to those that agree.
 const ROUNDS: usize = 4;
 
@@ -50,28 +53,38 @@ pub fn dominant(camera: &Camera, patches: &[Patch], weight: &[f64]) -> RigidMoti
 }
 
 /// The motion that best explains what `background` leaves unexplained among the weighted patches;
-/// `background` itself when nothing is left.
+/// `background` itself when nothing is left. `others` are motions of other curves, or what is taken for
+/// them: what they explain counts [`SHARED`].
 pub fn inside(
     camera: &Camera,
     patches: &[Patch],
     weight: &[f64],
     background: &RigidMotion,
+    others: &[RigidMotion],
 ) -> RigidMotion {
-    let known: Vec<f64> = patches
+    let within: Vec<Claim> = patches
         .iter()
-        .map(|p| error(camera, background, p).min(DISAGREES))
+        .zip(weight)
+        .filter(|(_, weight)| **weight > 0.0)
+        .map(|(patch, &weight)| {
+            let known = error(camera, background, patch).min(DISAGREES);
+            let errors = others.iter().map(|motion| error(camera, motion, patch));
+            Claim {
+                patch: *patch,
+                weight,
+                known,
+                elsewhere: (known - errors.fold(known, f64::min)).max(0.0),
+            }
+        })
         .collect();
     let gain = |motion: &RigidMotion| -> f64 {
-        let each = patches.iter().zip(weight).zip(&known);
-        each.map(|((p, w), known)| w * (known - error(camera, motion, p)).max(0.0))
+        let each = within.iter();
+        each.map(|claim| claim.worth(error(camera, motion, &claim.patch)))
             .sum()
     };
     let mut best = (*background, 0.0);
-    for (patch, &w) in patches.iter().zip(weight) {
-        if w <= 0.0 {
-            continue;
-        }
-        if let Some(motion) = fit(camera, &[*patch], &[1.0], ROTATION[1]) {
+    for claim in &within {
+        if let Some(motion) = fit(camera, &[claim.patch], &[1.0], ROTATION[1]) {
             let found = gain(&motion);
             if found > best.1 {
                 best = (motion, found);
@@ -79,19 +92,31 @@ pub fn inside(
         }
     }
     // What the background explains as well is not this region's to fit.
-    let own: Vec<f64> = patches
-        .iter()
-        .zip(weight)
-        .zip(&known)
-        .map(|((p, w), known)| {
-            if error(camera, &best.0, p) < *known {
-                *w
-            } else {
-                0.0
-            }
-        })
-        .collect();
-    settle(camera, patches, &own, best.0, ROTATION[1])
+    let own = within.iter().map(|claim| {
+        let better = error(camera, &best.0, &claim.patch) < claim.known;
+        if better { claim.weight } else { 0.0 }
+    });
+    let own: Vec<f64> = own.collect();
+    let patches: Vec<Patch> = within.iter().map(|claim| claim.patch).collect();
+    settle(camera, &patches, &own, best.0, ROTATION[1])
+}
+
+/// A patch inside a curve.
+struct Claim {
+    patch: Patch,
+    weight: f64,
+    /// Its error under the background's motion.
+    known: f64,
+    /// How much less it is under another curve's.
+    elsewhere: f64,
+}
+
+impl Claim {
+    /// What it is worth to a motion under which its error is `error`.
+    fn worth(&self, error: f64) -> f64 {
+        let gain = (self.known - error).max(0.0);
+        self.weight * (gain - (1.0 - SHARED) * gain.min(self.elsewhere))
+    }
 }
 
 fn settle(

@@ -87,8 +87,8 @@ async function findFocal(): Promise<void> {
   if (!answer) return;
   const [found = null] = answer;
   const focalFinding = focalFindingOf(found);
-  if (found) store.update({ camera: { ...store.state.camera, focal: found.focal }, focalFinding });
-  else store.update({ focalFinding });
+  const focal = found ? Math.round(found.focal) : camera.focal;
+  store.update({ camera: { ...store.state.camera, focal }, focalFinding });
   announce(focalFinding);
   if (found) await configure();
 }

@@ -35,6 +35,8 @@ const MARGIN: usize = 20;
 /// Pixels that their owner does not explain are offered to regions within this distance, in pixels, and
 /// count this much there: a region grows over an edge of its surface only if its depth follows.
 const OFFERED: (f32, f32) = (8.0, 0.5);
+/// Rounds in which motions are proposed: in the first, curves do not know of each other's.
+const PROPOSALS: usize = 3;
 /// A region of fewer pixels than this keeps the motion that it has.
 const FEWEST: usize = 8;
 
@@ -101,7 +103,7 @@ impl Layers {
     }
 
     /// Motions for the regions from label `first` on: what most patches agree on, and inside each curve
-    /// what that leaves over.
+    /// what that and the other curves' motions leave over.
     fn propose_motions(&mut self, first: usize) {
         if first >= self.regions.len() {
             return;
@@ -118,13 +120,19 @@ impl Layers {
         // Curves are drawn where a person saw something else move.
         let outside: Vec<f64> = within(0).iter().map(|w| 0.3 + 0.7 * w).collect();
         let background = start::dominant(&camera, &patches, &outside);
-        let motions: Vec<_> = (first..self.regions.len())
-            .map(|k| match k {
-                0 => background,
-                _ => start::inside(&camera, &patches, &within(k), &background),
-            })
-            .collect();
-        for (region, motion) in self.regions[first..].iter_mut().zip(motions) {
+        let mut motions: Vec<_> = self.regions.iter().map(|r| r.motion).collect();
+        if first == 0 {
+            motions[0] = background;
+        }
+        for round in 0..PROPOSALS {
+            for k in first.max(1)..motions.len() {
+                let known = |j: usize| j != k && (round > 0 || j < first);
+                let others = (1..motions.len()).filter(|&j| known(j));
+                let others: Vec<_> = others.map(|j| motions[j]).collect();
+                motions[k] = start::inside(&camera, &patches, &within(k), &background, &others);
+            }
+        }
+        for (region, motion) in self.regions.iter_mut().zip(motions) {
             region.motion = motion;
         }
     }
