@@ -35,7 +35,7 @@ export function mountSequence(): void {
       byId("lesson").textContent =
         lesson ||
         (width > 0
-          ? `${width} × ${height} pixels. Set the camera's focal length if you know it.`
+          ? `${width} × ${height} pixels. Set the camera's focal length if you know it, or have it found.`
           : "");
     },
   );
