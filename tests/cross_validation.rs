@@ -58,23 +58,28 @@ fn bodies_with_edges_are_smoothed_less_and_planes_are_not() {
     }
 }
 
-// A whole scene again.
-#[cfg(not(target_arch = "wasm32"))]
+/// Whoever takes depth's step by itself stays in the pass in which stiffness is learnt: with another stiffness each
+/// time, energy would leap to and fro.
 #[test]
-fn depth_taken_again_and_again_is_not_softened_again_and_again() {
-    let bodies = scene::render("blocks", 240, 180).unwrap();
-    let once = ended(&bodies, true);
+fn depth_taken_again_and_again_is_as_stiff_as_taken_once() {
+    let bodies = scene::render("blocks", 160, 120).unwrap();
     let mut solver = begun(&bodies, true);
     while solver.report().rested.is_empty() {
         solver.step();
     }
-    for _ in 0..4 {
+    let mut energy = || {
         solver.step_depth();
+        solver.report().energy.total
+    };
+    let mut before = energy();
+    for _ in 0..5 {
+        let after = energy();
+        assert!(
+            (after / before - 1.0).abs() < 5e-4,
+            "{before}, then {after}"
+        );
+        before = after;
     }
-    while solver.step() == Status::Running {}
-    let again = compare(&solver.interpretation(), &bodies.truth).unwrap();
-    let (once, again) = (once.aee.unwrap(), again.aee.unwrap());
-    assert!((again / once - 1.0).abs() < 0.1, "{again} px, {once} px");
 }
 
 #[test]

@@ -48,8 +48,8 @@ pub(super) struct Schedule {
     pass: usize,
     /// Whether curves have been drawn since this scale was reached.
     redrawn: bool,
-    /// The pass on this scale from which on motions are held.
-    resting: Option<usize>,
+    /// Whether regions know how stiff their depth is; `None` until motions are held.
+    resting: Option<bool>,
 }
 
 impl Schedule {
@@ -109,10 +109,15 @@ impl Schedule {
         self.resting.is_some()
     }
 
-    /// Whether regions find out how stiff their depth is: once, as soon as motions are held. Softer depth would
-    /// take motions along wherever it follows noise.
+    /// Whether regions are to find out how stiff their depth is: once, as soon as motions are held. Softer depth
+    /// would take motions along wherever it follows noise.
     pub fn learns(&self) -> bool {
-        self.resting == Some(self.pass)
+        self.resting == Some(false)
+    }
+
+    /// Keeps them from finding out again.
+    pub fn has_learnt(&mut self) {
+        self.resting = Some(true);
     }
 
     /// Whether a curve may still leap anywhere.
@@ -199,7 +204,7 @@ impl Schedule {
     pub fn comes_to_rest(&mut self, still: bool) -> bool {
         let due = !self.rests() && (still || self.at_least(DONE[1]));
         if due {
-            self.resting = Some(self.pass);
+            self.resting = Some(false);
         }
         due
     }

@@ -28,8 +28,8 @@ const RIM: usize = 1;
 /// Steps of depth from one share to the next: the slope that is expected is a step behind.
 const STEPS: usize = 3;
 
-/// The share of μ that suits `region`, which has been fitted under `prior` and the share that it has as yet; 1 for
-/// one that does not translate.
+/// The share of μ that suits `region`, which has been fitted under `prior`, all of it; 1 for one that does not
+/// translate.
 pub(super) fn foretelling(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
     if !region.kind.translates() {
         return SHARES[0];
@@ -65,8 +65,6 @@ fn judged(region: &Region, evidence: &Evidence) -> Grid<f32> {
 /// For each share what each block adds to CV.
 fn trials(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> [Vec<f64>; SHARES.len()] {
     let judged = judged(region, evidence);
-    // Someone who takes depth's step by itself comes here again in the same pass.
-    let full = prior.strength / region.stiffness;
     let (width, height) = (judged.width(), judged.height());
     let across = width.div_ceil(SIDE);
     let mut trials = SHARES.map(|_| vec![0.0; across * height.div_ceil(SIDE)]);
@@ -76,7 +74,7 @@ fn trials(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> [Vec<f64>
         let mut part = region.clone();
         for (share, blocks) in SHARES.iter().zip(&mut trials) {
             let prior = FieldPrior {
-                strength: share * full,
+                strength: share * prior.strength,
                 ..prior.clone()
             };
             for _ in 0..STEPS {

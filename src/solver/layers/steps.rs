@@ -85,6 +85,9 @@ impl Approach for Layers {
                     region.shade = evidence.shade(region);
                 }
             });
+            if learns {
+                self.schedule.has_learnt();
+            }
         }
     }
 
