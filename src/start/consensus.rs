@@ -54,7 +54,7 @@ pub fn dominant(camera: &Camera, patches: &[Patch], weight: &[f64]) -> RigidMoti
 
 /// The motion that best explains what `background` leaves unexplained among the weighted patches;
 /// `background` itself when nothing is left. `others` are motions of other curves, or what is taken for
-/// them: what they explain counts [`SHARED`].
+/// them: what they explain counts a quarter.
 pub fn inside(
     camera: &Camera,
     patches: &[Patch],
