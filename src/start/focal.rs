@@ -26,7 +26,7 @@ const SHORTEST: f64 = 0.354;
 const LONGEST: f64 = 5.66;
 /// Lenses in use are within this factor of the frame's side, to a standard deviation.
 const SPREAD: f64 = 2.0;
-/// 2 log of the odds that are asked for, e¹⁰ to one: among a dozen focal lengths there is always one at
+/// 2 log of the odds that are asked for, e¹⁰ to one: among twenty focal lengths there is often one at
 /// which two bodies happen to move alike.
 const DECISIVE: f64 = 20.0;
 /// 2 log of the odds between f and the ends of its range: two standard deviations.

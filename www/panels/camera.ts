@@ -83,6 +83,7 @@ export function mountCamera(): void {
 async function findFocal(): Promise<void> {
   const { camera } = store.state;
   const phrase = "Looking for the focal length";
+  // In an array, since nothing found is an answer, too.
   const answer = await ask(phrase, async (service) => [await service.findFocal(camera)]);
   if (!answer) return;
   const [found = null] = answer;
