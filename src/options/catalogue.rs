@@ -132,6 +132,12 @@ static CATALOGUE: &[Descriptor] = &[
         },
     },
     toggle(
+        "bodies",
+        "Bodies from patches",
+        "Let each curve start on the body that it is drawn on, as far as small patches show where that ends. Coarse to fine only.",
+        "step 3",
+    ),
+    toggle(
         "search",
         "Search directions",
         "Look for T over the whole sphere of directions, depth eliminated, before it is refined. Coarse to fine only.",

@@ -99,6 +99,8 @@ pub struct Options {
     pub depth_steps: usize,
     /// Steps of the curves in a pass.
     pub curve_steps: usize,
+    /// Whether curves start on the bodies that they are drawn on.
+    pub bodies: bool,
     /// Whether directions of T are searched over the whole sphere.
     pub search: bool,
     /// Whether the simplest kind of motion that explains a region is chosen.
@@ -142,6 +144,7 @@ impl Options {
                 depth: DepthMethod::Layers,
                 epsilon: 3e-3,
                 smoothing: 0.5,
+                bodies: true,
                 search: true,
                 choose_kind: true,
                 robust: true,
@@ -169,6 +172,7 @@ impl Options {
                 rotation_ridge: 0.1,
                 depth_steps: 20,
                 curve_steps: 20,
+                bodies: false,
                 search: false,
                 choose_kind: false,
                 robust: false,

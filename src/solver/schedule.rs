@@ -46,8 +46,12 @@ pub(super) struct Schedule {
     pub level: usize,
     /// Passes made on this scale.
     pass: usize,
+    /// Whether any pass has been made.
+    begun: bool,
     /// Whether curves have been drawn since this scale was reached.
     redrawn: bool,
+    /// Whether curves are on their bodies since they were drawn.
+    on_bodies: bool,
     /// Whether regions know how stiff their depth is; `None` until motions are held.
     resting: Option<bool>,
 }
@@ -67,7 +71,9 @@ impl Schedule {
             start,
             level: start,
             pass: 0,
+            begun: false,
             redrawn: false,
+            on_bodies: false,
             resting: None,
         }
     }
@@ -89,6 +95,27 @@ impl Schedule {
     /// Whether this is the first pass of all.
     pub fn begins(&self) -> bool {
         self.pass == 0
+    }
+
+    /// Whether any pass has been made.
+    pub fn begun(&self) -> bool {
+        self.begun
+    }
+
+    /// Curves are on their bodies.
+    pub fn hold_curves(&mut self) {
+        self.on_bodies = true;
+    }
+
+    /// Whether curves stay where they are: on their bodies, until each region has a motion and a depth of relief,
+    /// or the neighbour's, known better, would take its pixels.
+    pub fn holds_curves(&self) -> bool {
+        let last = if self.level == 0 {
+            THRESHOLD_PASSES
+        } else {
+            PASSES[0]
+        } - CHOOSING;
+        self.on_bodies && self.level == self.start && self.deep().is_none_or(|deep| deep <= last)
     }
 
     /// Whether regions are where they should be, to the pixel.
@@ -184,6 +211,7 @@ impl Schedule {
 
     /// Ends a pass; whether the next finer scale is due.
     pub fn advance(&mut self) -> bool {
+        self.begun = true;
         self.pass += 1;
         let most = PASSES[usize::from(self.level < self.start)];
         let done = self.level > 0 && self.deep().is_some_and(|deep| deep >= most);
@@ -218,6 +246,7 @@ impl Schedule {
     pub fn restart(&mut self) {
         self.pass = 0;
         self.redrawn = true;
+        self.on_bodies = false;
         self.resting = None;
     }
 }

@@ -22,10 +22,17 @@ use crate::frames::FramePair;
 /// Curves at most.
 const MOST: usize = 4;
 
-/// Polygons roughly on the things that move by themselves, the largest first, at most four; none when
-/// one rigid motion explains both frames. Corners are in pixels of the frame, inside it, to a tenth of a
-/// pixel. `camera` is the frames' own.
+/// The largest four of [`bodies`].
 pub fn automatic(pair: &FramePair, camera: &Camera) -> Vec<Shape> {
+    let mut curves = bodies(pair, camera);
+    curves.truncate(MOST);
+    curves
+}
+
+/// Polygons roughly on the things that move by themselves, the largest first; none when one rigid motion
+/// explains both frames. Corners are in pixels of the frame, inside it, to a tenth of a pixel. `camera` is
+/// the frames' own.
+pub fn bodies(pair: &FramePair, camera: &Camera) -> Vec<Shape> {
     let Some(look) = Look::at(pair, camera) else {
         return Vec::new();
     };
@@ -49,7 +56,6 @@ pub fn automatic(pair: &FramePair, camera: &Camera) -> Vec<Shape> {
         })
         .collect();
     curves.sort_by(|a, b| b.share.total_cmp(&a.share));
-    curves.truncate(MOST);
     let polygon = |outline: Outline| Shape::Polygon {
         points: outline.corners,
     };

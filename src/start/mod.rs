@@ -1,5 +1,6 @@
 //! A start: curves where something moves by itself, and motions, from where small patches go.
 
+mod assignment;
 mod automatic;
 mod bodies;
 mod consensus;
@@ -16,7 +17,8 @@ mod surface;
 mod surfaces;
 mod union;
 
-pub use automatic::automatic;
+pub use assignment::assignment;
+pub use automatic::{automatic, bodies};
 pub use consensus::{dominant, inside};
 pub use focal::{FocalLength, focal_length};
 pub use patches::{Patch, patches};

@@ -58,6 +58,17 @@ pub(super) struct Layers {
     weights: Weights,
     /// What the regions cover in the second frame, once hidden pixels are excused.
     cover: Option<Cover>,
+    bodies: Bodies,
+}
+
+/// The bodies that curves are drawn on, if each is on one.
+enum Bodies {
+    /// Not looked for yet.
+    Unknown,
+    /// Level sets at the scale at work, where curves go with the next step of theirs.
+    Ahead(Vec<Grid<f32>>),
+    /// Curves are there, or not every curve is on one, or nobody shall look.
+    Past,
 }
 
 impl Layers {
@@ -93,6 +104,7 @@ impl Layers {
             unclaimed: Grid::new(width, height, false),
             regions: vec![Region::new(width, height); regions],
             cover: None,
+            bodies: Bodies::Unknown,
             weights: Weights::of_layers(noise.sigma, false, options),
             noise,
             scales,
@@ -100,6 +112,46 @@ impl Layers {
         layers.place_curves(level_sets);
         layers.propose_motions(0);
         layers
+    }
+
+    /// Before the first pass: looks for the bodies that curves are drawn on, and for their motions there.
+    fn look_for_bodies(&mut self, options: &Options) {
+        if !matches!(self.bodies, Bodies::Unknown) {
+            return;
+        }
+        self.bodies = Bodies::Past;
+        if !options.bodies || self.phi.is_empty() {
+            return;
+        }
+        let shapes = start::bodies(&self.pair, &self.scales[0].camera);
+        let numbered = shapes.iter().enumerate();
+        let whole = self.scales[0].whole();
+        let all: Vec<Grid<f32>> = numbered
+            .filter_map(|(i, shape)| shape.level_set(whole.width, whole.height, i).ok())
+            .map(|phi| self.at_this_scale(phi))
+            .collect();
+        if let Some(which) = start::assignment(&self.phi, &all) {
+            let theirs = which.iter().map(|&b| all[b].clone()).collect();
+            let drawn = std::mem::replace(&mut self.phi, theirs);
+            self.relabel();
+            self.propose_motions(0);
+            let bodies = std::mem::replace(&mut self.phi, drawn);
+            self.relabel();
+            self.bodies = Bodies::Ahead(bodies);
+        }
+    }
+
+    /// Curves go to their bodies, and stay there until regions have motions and depth of their own.
+    fn go_to_bodies(&mut self) {
+        if let Bodies::Ahead(phi) = std::mem::replace(&mut self.bodies, Bodies::Past) {
+            self.phi = phi;
+            self.relabel();
+            self.schedule.hold_curves();
+        }
+    }
+
+    fn relabel(&mut self) {
+        self.labels = curves::labels(&self.phi, self.labels.width(), self.labels.height());
     }
 
     /// Motions for the regions from label `first` on: what most patches agree on, and inside each curve
@@ -137,15 +189,15 @@ impl Layers {
         }
     }
 
-    /// Level sets of the frame's size brought to the scale at work.
-    fn place_curves(&mut self, mut level_sets: Vec<Grid<f32>>) {
-        for _ in 0..self.schedule.level {
-            for phi in &mut level_sets {
-                *phi = halved(phi).map(|p| 0.5 * p);
-            }
-        }
-        self.labels = curves::labels(&level_sets, self.labels.width(), self.labels.height());
-        self.phi = level_sets;
+    fn place_curves(&mut self, level_sets: Vec<Grid<f32>>) {
+        let each = level_sets.into_iter();
+        self.phi = each.map(|phi| self.at_this_scale(phi)).collect();
+        self.relabel();
+    }
+
+    /// A level set of the frame's size at the scale at work.
+    fn at_this_scale(&self, phi: Grid<f32>) -> Grid<f32> {
+        (0..self.schedule.level).fold(phi, |phi, _| halved(&phi).map(|p| 0.5 * p))
     }
 
     fn here(&self) -> &Scale {

@@ -1,6 +1,6 @@
 //! The steps of a pass of the coarse-to-fine solver: motion, depth, curves, and the way to the next scale.
 
-use super::Layers;
+use super::{Bodies, Layers};
 use crate::camera::RigidMotion;
 use crate::curves::{self, Measure};
 use crate::energy::Energy;
@@ -25,6 +25,7 @@ const REACH: f32 = 1.0;
 
 impl Approach for Layers {
     fn find_motions(&mut self, options: &Options) {
+        self.look_for_bodies(options);
         if self.weights.sigma.is_infinite() {
             let lines = self.linearisations();
             self.measure_noise(&lines, options);
@@ -92,9 +93,11 @@ impl Approach for Layers {
     }
 
     fn move_curves(&mut self, options: &Options) {
+        self.look_for_bodies(options);
+        self.go_to_bodies();
         let lines = self.linearisations();
         self.measure_noise(&lines, options);
-        if self.phi.is_empty() {
+        if self.phi.is_empty() || self.schedule.holds_curves() {
             return;
         }
         let xi = self.residuals(&lines, options);
@@ -116,7 +119,7 @@ impl Approach for Layers {
         if options.islands && self.schedule.deep().is_some() {
             curves::without_islands(&mut self.phi);
         }
-        self.labels = curves::labels(&self.phi, self.labels.width(), self.labels.height());
+        self.relabel();
         self.unclaimed = rivalry::unexplained(&xi, &self.labels, self.weights.sigma);
     }
 
@@ -146,6 +149,9 @@ impl Approach for Layers {
     fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>) {
         let (width, height) = (self.labels.width(), self.labels.height());
         let known = self.regions.len();
+        if !self.schedule.begun() {
+            self.bodies = Bodies::Unknown;
+        }
         // The search for motions and threshold dynamics, which end with a scale's first passes, are
         // needed again.
         self.schedule.restart();
