@@ -1,0 +1,141 @@
+//! Curves start on the bodies that they are drawn on.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use relievo::scene::{Sequence, render};
+use relievo::{FramePair, Grid, Options, Shape, Solver};
+
+fn start(sequence: &Sequence, curves: &[Shape], options: Options) -> Solver {
+    let [first, second] = sequence.frames.clone();
+    let pair = FramePair::new(first, second).unwrap();
+    Solver::new(pair, sequence.truth.camera, curves, options).unwrap()
+}
+
+fn circle(x: f64, y: f64, r: f64) -> Shape {
+    Shape::Circle { x, y, r }
+}
+
+fn differing(a: &Grid<u8>, b: &Grid<u8>) -> f64 {
+    let pairs = a.data().iter().zip(b.data());
+    pairs.filter(|(a, b)| a != b).count() as f64 / a.len() as f64
+}
+
+fn wrong(solver: &Solver, sequence: &Sequence) -> f64 {
+    differing(&solver.interpretation().labels, &sequence.truth.labels)
+}
+
+fn circles(sequence: &Sequence) -> Vec<[f64; 3]> {
+    let each = sequence.curves.iter().map(|curve| match *curve {
+        Shape::Circle { x, y, r } => [x, y, r],
+        Shape::Polygon { .. } => panic!("circles come with a sequence"),
+    });
+    each.collect()
+}
+
+/// Each circle put some way towards the next one's place.
+fn towards_the_next(sequence: &Sequence, way: f64) -> Vec<Shape> {
+    let own = circles(sequence);
+    let next = own.iter().cycle().skip(1);
+    own.iter()
+        .zip(next)
+        .map(|(a, b)| circle(a[0] + way * (b[0] - a[0]), a[1] + way * (b[1] - a[1]), a[2]))
+        .collect()
+}
+
+#[test]
+fn a_pass_takes_curves_to_where_their_bodies_end() {
+    let sequence = render("carousel", 320, 240).unwrap();
+    for way in [0.0, 0.15, -0.15] {
+        let curves = towards_the_next(&sequence, way);
+        let mut solver = start(&sequence, &curves, Options::default());
+        let before = wrong(&solver, &sequence);
+        assert!(before > 0.08, "{way}: {before} before");
+        solver.step();
+        let after = wrong(&solver, &sequence);
+        assert!(after < 0.04, "{way}: {after} after");
+    }
+}
+
+#[test]
+fn until_the_first_step_curves_are_as_drawn_and_may_be_drawn_again() {
+    let sequence = render("blocks", 320, 240).unwrap();
+    let mut solver = start(&sequence, &[circle(20.0, 20.0, 9.0)], Options::default());
+    solver.set_curves(&sequence.curves).unwrap();
+    let mut other = start(&sequence, &sequence.curves, Options::default());
+    let drawn = other.interpretation().labels;
+    assert_eq!(solver.interpretation().labels, drawn);
+    // Motion is found first; curves stay until their own step.
+    other.step_motion();
+    assert_eq!(other.interpretation().labels, drawn);
+    solver.step();
+    other.step_depth();
+    other.step_curves();
+    assert!(wrong(&solver, &sequence) < 0.02);
+    assert_eq!(
+        solver.interpretation().labels,
+        other.interpretation().labels
+    );
+}
+
+#[test]
+fn curves_drawn_between_the_first_steps_count() {
+    let sequence = render("blocks", 320, 240).unwrap();
+    let mut solver = start(&sequence, &sequence.curves[..1], Options::default());
+    solver.step_motion();
+    solver.set_curves(&sequence.curves).unwrap();
+    solver.step();
+    assert!(wrong(&solver, &sequence) < 0.02);
+}
+
+#[test]
+fn a_curve_drawn_later_is_where_it_is_drawn() {
+    let sequence = render("blocks", 320, 240).unwrap();
+    let mut solver = start(&sequence, &sequence.curves, Options::default());
+    for _ in 0..4 {
+        solver.step();
+    }
+    let small: Vec<Shape> = circles(&sequence)
+        .iter()
+        .map(|[x, y, r]| circle(*x, *y, 0.6 * r))
+        .collect();
+    solver.set_curves(&small).unwrap();
+    solver.step_motion();
+    let drawn = start(&sequence, &small, Options::default());
+    let away = differing(
+        &solver.interpretation().labels,
+        &drawn.interpretation().labels,
+    );
+    assert!(away < 0.005, "{away}");
+}
+
+#[test]
+fn curves_that_are_on_no_body_of_their_own_start_as_drawn() {
+    let sequence = render("blocks", 320, 240).unwrap();
+    let [x, y, r] = circles(&sequence)[0];
+    // Two on one block.
+    let both = [
+        circle(x - 0.5 * r, y, 0.4 * r),
+        circle(x + 0.5 * r, y, 0.4 * r),
+    ];
+    let off = Options {
+        bodies: false,
+        ..Options::default()
+    };
+    let [mut with, mut without] = [Options::default(), off].map(|o| start(&sequence, &both, o));
+    for _ in 0..2 {
+        with.step();
+        without.step();
+    }
+    assert_eq!(with.interpretation(), without.interpretation());
+}
+
+#[test]
+fn frames_too_small_to_show_patches_start_as_drawn() {
+    let sequence = render("squares", 40, 30).unwrap();
+    let mut solver = start(&sequence, &sequence.curves, Options::default());
+    for _ in 0..12 {
+        solver.step();
+    }
+    assert!(solver.energy().total().is_finite());
+}
