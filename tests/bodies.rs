@@ -79,6 +79,20 @@ fn until_the_first_step_curves_are_as_drawn_and_may_be_drawn_again() {
 }
 
 #[test]
+fn curves_drawn_before_the_first_step_might_have_been_there_from_the_start() {
+    let sequence = render("blocks", 320, 240).unwrap();
+    let mut solver = start(&sequence, &[], Options::default());
+    solver.set_curves(&sequence.curves).unwrap();
+    let mut other = start(&sequence, &sequence.curves, Options::default());
+    for _ in 0..2 {
+        solver.step();
+        other.step();
+    }
+    assert_eq!(solver.report().level, other.report().level);
+    assert_eq!(solver.interpretation(), other.interpretation());
+}
+
+#[test]
 fn curves_drawn_between_the_first_steps_count() {
     let sequence = render("blocks", 320, 240).unwrap();
     let mut solver = start(&sequence, &sequence.curves[..1], Options::default());

@@ -30,7 +30,7 @@ pub(super) trait Approach {
     fn reconsider(&mut self, options: &Options);
 
     /// Curves have been drawn anew: level sets of the frame's size.
-    fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>);
+    fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>, options: &Options);
 
     /// The terms of (7).
     fn energy(&self, options: &Options) -> Energy;

@@ -260,7 +260,7 @@ impl Solver {
     pub fn set_curves(&mut self, shapes: &[Shape]) -> Result<(), Error> {
         let level_sets = level_sets(&self.pair, shapes)?;
         self.shapes = shapes.to_vec();
-        self.approach.replace_curves(level_sets);
+        self.approach.replace_curves(level_sets, &self.options);
         self.drawn_at = self.history.len();
         self.resume();
         Ok(())

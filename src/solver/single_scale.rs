@@ -215,7 +215,7 @@ impl Approach for SingleScale {
         }
     }
 
-    fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>) {
+    fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>, _: &Options) {
         self.labels = curves::labels(&level_sets, self.labels.width(), self.labels.height());
         self.motions
             .resize(level_sets.len() + 1, RigidMotion::default());

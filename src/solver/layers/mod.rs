@@ -6,9 +6,11 @@
 //! Each hypothesis is judged by its own depth, so that the present owner of a pixel is not favoured. A
 //! region is computed in a window around it, beyond which its depth goes on as a plane.
 //!
-//! Here are the layers and what they are computed from; `steps.rs` improves them, `balance.rs` weighs them.
+//! Here are the layers and what they are computed from; `start.rs` says where they begin, `steps.rs` improves
+//! them, `balance.rs` weighs them.
 
 mod balance;
+mod start;
 mod steps;
 
 use std::rc::Rc;
@@ -26,17 +28,15 @@ use crate::frames::{FramePair, Lighting, doubled, halved};
 use crate::grid::Grid;
 use crate::occlusion::Cover;
 use crate::options::Options;
-use crate::start::{self, Patch};
 use crate::warp::{Scale, pyramid};
 use crate::window::Window;
+use start::Bodies;
 
 /// Pixels around a region in which its field is computed, and beyond which its curve does not leap.
 const MARGIN: usize = 20;
 /// Pixels that their owner does not explain are offered to regions within this distance, in pixels, and
 /// count this much there: a region grows over an edge of its surface only if its depth follows.
 const OFFERED: (f32, f32) = (8.0, 0.5);
-/// Rounds in which motions are proposed: in the first, curves do not know of each other's.
-const PROPOSALS: usize = 3;
 /// A region of fewer pixels than this keeps the motion that it has.
 const FEWEST: usize = 8;
 
@@ -59,16 +59,6 @@ pub(super) struct Layers {
     /// What the regions cover in the second frame, once hidden pixels are excused.
     cover: Option<Cover>,
     bodies: Bodies,
-}
-
-/// The bodies that curves are drawn on, if each is on one.
-enum Bodies {
-    /// Not looked for yet.
-    Unknown,
-    /// Level sets at the scale at work, where curves go with the next step of theirs.
-    Ahead(Vec<Grid<f32>>),
-    /// Curves are there, or not every curve is on one, or nobody shall look.
-    Past,
 }
 
 impl Layers {
@@ -114,79 +104,8 @@ impl Layers {
         layers
     }
 
-    /// Before the first pass: looks for the bodies that curves are drawn on, and for their motions there.
-    fn look_for_bodies(&mut self, options: &Options) {
-        if !matches!(self.bodies, Bodies::Unknown) {
-            return;
-        }
-        self.bodies = Bodies::Past;
-        if !options.bodies || self.phi.is_empty() {
-            return;
-        }
-        let shapes = start::bodies(&self.pair, &self.scales[0].camera);
-        let numbered = shapes.iter().enumerate();
-        let whole = self.scales[0].whole();
-        let all: Vec<Grid<f32>> = numbered
-            .filter_map(|(i, shape)| shape.level_set(whole.width, whole.height, i).ok())
-            .map(|phi| self.at_this_scale(phi))
-            .collect();
-        if let Some(which) = start::assignment(&self.phi, &all) {
-            let theirs = which.iter().map(|&b| all[b].clone()).collect();
-            let drawn = std::mem::replace(&mut self.phi, theirs);
-            self.relabel();
-            self.propose_motions(0);
-            let bodies = std::mem::replace(&mut self.phi, drawn);
-            self.relabel();
-            self.bodies = Bodies::Ahead(bodies);
-        }
-    }
-
-    /// Curves go to their bodies, and stay there until regions have motions and depth of their own.
-    fn go_to_bodies(&mut self) {
-        if let Bodies::Ahead(phi) = std::mem::replace(&mut self.bodies, Bodies::Past) {
-            self.phi = phi;
-            self.relabel();
-            self.schedule.hold_curves();
-        }
-    }
-
     fn relabel(&mut self) {
         self.labels = curves::labels(&self.phi, self.labels.width(), self.labels.height());
-    }
-
-    /// Motions for the regions from label `first` on: what most patches agree on, and inside each curve
-    /// what that and the other curves' motions leave over.
-    fn propose_motions(&mut self, first: usize) {
-        if first >= self.regions.len() {
-            return;
-        }
-        let patches = start::patches(&self.scales, self.schedule.level);
-        if patches.is_empty() {
-            return;
-        }
-        let camera = self.here().camera;
-        let within = |k: usize| -> Vec<f64> {
-            let inside = |p: &Patch| self.labels[(p.x as usize, p.y as usize)] == k as u8;
-            patches.iter().map(|p| f64::from(inside(p))).collect()
-        };
-        // Curves are drawn where a person saw something else move.
-        let outside: Vec<f64> = within(0).iter().map(|w| 0.3 + 0.7 * w).collect();
-        let background = start::dominant(&camera, &patches, &outside);
-        let mut motions: Vec<_> = self.regions.iter().map(|r| r.motion).collect();
-        if first == 0 {
-            motions[0] = background;
-        }
-        for round in 0..PROPOSALS {
-            for k in first.max(1)..motions.len() {
-                let known = |j: usize| j != k && (round > 0 || j < first);
-                let others = (1..motions.len()).filter(|&j| known(j));
-                let others: Vec<_> = others.map(|j| motions[j]).collect();
-                motions[k] = start::inside(&camera, &patches, &within(k), &background, &others);
-            }
-        }
-        for (region, motion) in self.regions.iter_mut().zip(motions) {
-            region.motion = motion;
-        }
     }
 
     fn place_curves(&mut self, level_sets: Vec<Grid<f32>>) {

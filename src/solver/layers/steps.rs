@@ -1,6 +1,6 @@
 //! The steps of a pass of the coarse-to-fine solver: motion, depth, curves, and the way to the next scale.
 
-use super::{Bodies, Layers};
+use super::Layers;
 use crate::camera::RigidMotion;
 use crate::curves::{self, Measure};
 use crate::energy::Energy;
@@ -146,12 +146,15 @@ impl Approach for Layers {
         self.forget_stiffness();
     }
 
-    fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>) {
+    fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>, options: &Options) {
+        if !self.schedule.begun() {
+            // Nothing has been found yet, and with which scale to begin depends on how many curves there are.
+            let camera = self.scales[0].camera;
+            *self = Self::new(self.pair.clone(), camera, level_sets, options);
+            return;
+        }
         let (width, height) = (self.labels.width(), self.labels.height());
         let known = self.regions.len();
-        if !self.schedule.begun() {
-            self.bodies = Bodies::Unknown;
-        }
         // The search for motions and threshold dynamics, which end with a scale's first passes, are
         // needed again.
         self.schedule.restart();
