@@ -1,8 +1,9 @@
 //! What is due in which pass of the coarse-to-fine solver.
 //!
 //! Regions start on a coarse scale: flat (ρ = 1) for some passes while threshold dynamics finds roughly
-//! where they are, then with depth; curves that begin on their bodies are held meanwhile. A scale is done after a set number of passes; the finest goes over from
-//! threshold dynamics to (17) and ends when all stands still. Passes with depth are counted from 0.
+//! where they are, then with depth; curves that begin on their bodies are held meanwhile. A scale is done
+//! after a set number of passes; the finest goes over from threshold dynamics to (17) and ends when all
+//! stands still. Passes with depth are counted from 0.
 
 /// Regions start on the coarsest scale whose shorter side is at least this: where several compete, and
 /// where there is only one. At a coarse scale displacements are small, but so are the differences that tell

@@ -30,7 +30,7 @@ use crate::occlusion::Cover;
 use crate::options::Options;
 use crate::warp::{Scale, pyramid};
 use crate::window::Window;
-use start::Bodies;
+use start::Destination;
 
 /// Pixels around a region in which its field is computed, and beyond which its curve does not leap.
 const MARGIN: usize = 20;
@@ -58,7 +58,7 @@ pub(super) struct Layers {
     weights: Weights,
     /// What the regions cover in the second frame, once hidden pixels are excused.
     cover: Option<Cover>,
-    bodies: Bodies,
+    destination: Destination,
 }
 
 impl Layers {
@@ -94,7 +94,7 @@ impl Layers {
             unclaimed: Grid::new(width, height, false),
             regions: vec![Region::new(width, height); regions],
             cover: None,
-            bodies: Bodies::Unknown,
+            destination: Destination::Unknown,
             weights: Weights::of_layers(noise.sigma, false, options),
             noise,
             scales,

@@ -14,8 +14,8 @@ use crate::start::{self, Patch};
 /// Rounds in which motions are proposed: in the first, curves do not know of each other's.
 const PROPOSALS: usize = 3;
 
-/// The bodies that curves are drawn on, if each is on one.
-pub(super) enum Bodies {
+/// Where curves go before they are held: to the bodies that they are drawn on, if each is on one.
+pub(super) enum Destination {
     /// Not looked for yet.
     Unknown,
     /// Level sets at the scale at work, where curves go with the next step of theirs.
@@ -27,18 +27,18 @@ pub(super) enum Bodies {
 impl Layers {
     /// Before the first pass: looks for the bodies that curves are drawn on, and for their motions there.
     pub(super) fn look_for_bodies(&mut self, options: &Options) {
-        if !matches!(self.bodies, Bodies::Unknown) {
+        if !matches!(self.destination, Destination::Unknown) {
             return;
         }
-        self.bodies = Bodies::Past;
+        self.destination = Destination::Past;
         if !options.bodies || self.phi.is_empty() {
             return;
         }
         let shapes = start::bodies(&self.pair, &self.scales[0].camera);
-        let numbered = shapes.iter().enumerate();
         let whole = self.scales[0].whole();
-        let all: Vec<Grid<f32>> = numbered
-            .filter_map(|(i, shape)| shape.level_set(whole.width, whole.height, i).ok())
+        let all: Vec<Grid<f32>> = shapes
+            .iter()
+            .filter_map(|shape| shape.level_set(whole.width, whole.height, 0).ok())
             .map(|phi| self.at_this_scale(phi))
             .collect();
         if let Some(which) = start::assignment(&self.phi, &all) {
@@ -48,13 +48,14 @@ impl Layers {
             self.propose_motions(0);
             let bodies = std::mem::replace(&mut self.phi, drawn);
             self.relabel();
-            self.bodies = Bodies::Ahead(bodies);
+            self.destination = Destination::Ahead(bodies);
         }
     }
 
     /// Curves go to their bodies, and stay there until regions have motions and depth of their own.
     pub(super) fn go_to_bodies(&mut self) {
-        if let Bodies::Ahead(phi) = std::mem::replace(&mut self.bodies, Bodies::Past) {
+        if let Destination::Ahead(phi) = std::mem::replace(&mut self.destination, Destination::Past)
+        {
             self.phi = phi;
             self.relabel();
             self.schedule.hold_curves();
