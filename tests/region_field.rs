@@ -197,6 +197,22 @@ fn slopes_that_change_slowly_cost_next_to_nothing_and_steps_do() {
 }
 
 #[test]
+fn a_round_surface_costs_no_more_at_its_curve_than_inside() {
+    let inward = |x: usize, y: usize| 22.0 - (x as f32 - 30.0).hypot(y as f32 - 24.0);
+    let rho = Grid::from_fn(60, 48, |x, y| 1.0 + 1e-4 * (22.0 - inward(x, y)).powi(2));
+    let ring = |from: f32, to: f32| {
+        Grid::from_fn(60, 48, |x, y| f32::from((from..to).contains(&inward(x, y))))
+    };
+    let owned = ring(0.0, 40.0);
+    let prior = prior(Diffusion::Isotropic);
+    let cost = |bends: &Bends, of: &Grid<f32>| prior.edges(bends).energy(bends, of);
+    let bends = Bends::about_slope(&rho, &owned, &Plane::fit(&rho, &owned), 5.0);
+    let all = cost(&Bends::of(&rho), &owned);
+    let of_rim = cost(&bends, &ring(0.0, 5.0));
+    assert!(of_rim < 0.01 * all, "the rim costs {of_rim} of {all}");
+}
+
+#[test]
 fn where_nothing_is_known_the_plane_is_expected() {
     let plane = |x: usize, y: usize| 1.0 + 0.003 * x as f32 - 0.002 * y as f32;
     let known = |x: usize| x < 20;

@@ -1,15 +1,19 @@
 //! Step 2: depth at every pixel.
 
+mod bends;
 mod confidence;
 mod crease;
 mod descent;
 mod elliptic;
+mod local_line;
 mod region_field;
 mod smoothness;
 
+pub use bends::Bends;
 pub use confidence::confidence;
 pub use crease::creases;
 pub use descent::{DepthDescent, NEAREST_FARTHEST};
 pub use elliptic::Elliptic;
-pub use region_field::{Bends, Edges, FieldPrior, Plane};
+pub use local_line::local_line;
+pub use region_field::{Edges, FieldPrior, Plane};
 pub use smoothness::Smoothness;

@@ -4,21 +4,16 @@
 //! E(ρ) = Σ ω_i (r + a δρ)² + Σ_edges c_ij ( ρ_j − ρ_i − s_ij )² + κ Σ (ρ − 1)²
 //! ```
 //!
-//! ρ = 1/Z makes the data term linear. s is the slope that is expected: the mean of ρ's own steps over some
-//! pixels around, lagged, and that of the plane that fits best where the region has no pixels, so that ρ
-//! goes on as the plane does beyond the region's curve. Slanted and gently curved surfaces cost next to
-//! nothing; what is smoothed is how ρ bends. c is (11) or (12) of the bend over ε, lagged; ε is in units of
-//! mean ρ per focal length, so that it means a slope of the surface and not of pixels, and less on creases
-//! (`crease.rs`). Weights are in units of the noise's variance. κ keeps relief that nothing shows from growing.
+//! ρ = 1/Z makes the data term linear. s is the step that is expected (`bends.rs`), lagged: what is smoothed is how
+//! ρ bends. c is (11) or (12) of the bend over ε, lagged; ε is in units of mean ρ per focal length, so that it
+//! means a slope of the surface and not of pixels, and less on creases (`crease.rs`). Weights are in units of the
+//! noise's variance. κ keeps relief that nothing shows from growing.
 
+use super::bends::Bends;
 use super::elliptic::Elliptic;
-use crate::frames::blur;
 use crate::grid::Grid;
 use crate::motion::solve_positive;
 use crate::options::Diffusion;
-
-/// Share of pixels around from which their mean slope counts more than the plane's.
-const UNKNOWN: f32 = 0.05;
 
 /// Smoothness of a region's ρ.
 #[derive(Clone, Debug)]
@@ -39,70 +34,6 @@ pub struct FieldPrior {
 pub struct Edges {
     right: Vec<f32>,
     below: Vec<f32>,
-}
-
-/// How the steps of a field to the right and down differ from those expected of it: what is smoothed.
-#[derive(Clone, Debug)]
-pub struct Bends {
-    /// To the right; 0 in the last column.
-    right: Grid<f32>,
-    /// Down; 0 in the last row.
-    down: Grid<f32>,
-}
-
-impl Bends {
-    /// All steps of `field`, none being expected.
-    pub fn of(field: &Grid<f32>) -> Self {
-        let (width, height) = (field.width(), field.height());
-        let step = |x: usize, y: usize, nx: usize, ny: usize| {
-            if nx < width && ny < height {
-                field[(nx, ny)] - field[(x, y)]
-            } else {
-                0.0
-            }
-        };
-        Self {
-            right: Grid::from_fn(width, height, |x, y| step(x, y, x + 1, y)),
-            down: Grid::from_fn(width, height, |x, y| step(x, y, x, y + 1)),
-        }
-    }
-
-    /// What is left of the steps of `rho` after their own mean over some pixels around, among those that
-    /// are `owned`; where there are none, after the steps of `plane`. `reach` is the mean's standard
-    /// deviation in pixels.
-    pub fn about_slope(rho: &Grid<f32>, owned: &Grid<f32>, plane: &Plane, reach: f64) -> Self {
-        let steps = Self::of(rho);
-        let (width, height) = (rho.width(), rho.height());
-        let expected = plane.slope();
-        let bent = |steps: &Grid<f32>, ahead: (usize, usize), expected: f64| {
-            let expected = expected as f32;
-            let within = |x: usize, y: usize| x + ahead.0 < width && y + ahead.1 < height;
-            let weight = Grid::from_fn(width, height, |x, y| {
-                if within(x, y) {
-                    owned[(x, y)] * owned[(x + ahead.0, y + ahead.1)]
-                } else {
-                    0.0
-                }
-            });
-            let mut beyond = steps.clone();
-            for (b, w) in beyond.data_mut().iter_mut().zip(weight.data()) {
-                *b = w * (*b - expected);
-            }
-            let (sum, count) = (blur(&beyond, reach), blur(&weight, reach));
-            Grid::from_fn(width, height, |x, y| {
-                if within(x, y) {
-                    let mean = sum[(x, y)] / (count[(x, y)] + UNKNOWN);
-                    steps[(x, y)] - expected - mean
-                } else {
-                    0.0
-                }
-            })
-        };
-        Self {
-            right: bent(&steps.right, (1, 0), expected[0]),
-            down: bent(&steps.down, (0, 1), expected[1]),
-        }
-    }
 }
 
 impl FieldPrior {

@@ -7,7 +7,7 @@ pub fn blur(grid: &Grid<f32>, sigma: f64) -> Grid<f32> {
     if sigma <= 0.0 {
         return grid.clone();
     }
-    let kernel = kernel(sigma);
+    let kernel = half_gaussian(sigma);
     let (width, height) = (grid.width(), grid.height());
     let reach = kernel.len() - 1;
     let mut across = Grid::new(width, height, 0.0f32);
@@ -48,7 +48,7 @@ pub fn blur(grid: &Grid<f32>, sigma: f64) -> Grid<f32> {
 }
 
 /// The right half of the kernel, its centre first; all of it sums to 1.
-fn kernel(sigma: f64) -> Vec<f32> {
+pub(crate) fn half_gaussian(sigma: f64) -> Vec<f32> {
     let reach = (3.0 * sigma).ceil().max(1.0) as usize;
     let weights: Vec<f64> = (0..=reach)
         .map(|i| (-0.5 * (i as f64 / sigma).powi(2)).exp())

@@ -59,11 +59,14 @@ impl Evidence<'_> {
         region.linearise(self.scale, self.window)
     }
 
-    /// The same without the pixels (x, y) of the window for which `withheld` says so.
+    /// The same without the pixels (x, y) of the window for which `withheld` says so, either.
     pub fn without(&self, withheld: impl Fn(usize, usize) -> bool) -> Self {
         let (width, height) = (self.owned.width(), self.owned.height());
+        let already = |at| self.withheld.as_ref().is_some_and(|grid| grid[at]);
         Self {
-            withheld: Some(Grid::from_fn(width, height, withheld)),
+            withheld: Some(Grid::from_fn(width, height, |x, y| {
+                already((x, y)) || withheld(x, y)
+            })),
             ..self.clone()
         }
     }

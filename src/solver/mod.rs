@@ -16,6 +16,7 @@ mod leap;
 mod noise;
 mod region;
 mod report;
+mod rim;
 mod rivalry;
 mod schedule;
 mod single_scale;

@@ -19,6 +19,7 @@ use super::approach::pixels;
 use super::evidence::Evidence;
 use super::noise::{Noise, change_of_light};
 use super::region::{Region, certainty};
+use super::rim::rim;
 use super::schedule::Schedule;
 use super::weights::Weights;
 use crate::camera::Camera;
@@ -173,12 +174,17 @@ impl Layers {
         Evidence {
             scale: self.here(),
             window,
+            // While curves may still be pixels off, what is left out might be the region's own.
+            withheld: if self.schedule.settled() {
+                rim(&owned)
+            } else {
+                None
+            },
             owned,
             sigma: self.weights.sigma,
             spread: self.noise.regions[k].max(self.weights.sigma),
             robust: options.robust,
             shadowed: k == 0 && self.regions.len() > 1 && self.schedule.level == 0,
-            withheld: None,
         }
     }
 
