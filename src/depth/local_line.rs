@@ -5,7 +5,7 @@
 //! ```
 //!
 //! A mean over the same window lags behind wherever the window is cut off: at a region's curve it sees one side
-//! only, and would call each surface that curves there bent. A line does not (Cleveland 1979; Fan 1992). κ,
+//! only, and calls each surface that curves there bent. A line lags less (Cleveland 1979; Fan 1992). κ,
 //! against weights w up to 1, pulls to 0 where little is known. G is cut at 3s; beyond the grid nothing is known.
 //! m is smooth: it is computed for each block of 2×2 pixels and interpolated in between.
 
@@ -13,7 +13,7 @@ use crate::frames::{doubled, half_gaussian};
 use crate::grid::Grid;
 
 /// κ.
-const UNKNOWN: f32 = 0.01;
+const UNKNOWN: f32 = 0.05;
 
 /// m for `weighted` = w v, under `weight` = w, each pixel 0 to 1; `reach` is s, in pixels, 2 at least.
 pub fn local_line(weight: &Grid<f32>, weighted: &Grid<f32>, reach: f64) -> Grid<f32> {

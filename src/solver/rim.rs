@@ -2,8 +2,8 @@
 //!
 //! Smoothing, derivatives and interpolation read brightness from a pixel or two around, and at a region's curve some
 //! of it is another's, which moves otherwise. What is fitted there errs all along the curve to the same side: depth
-//! falls off or rises towards it, and T turns. So motion and depth are not fitted to the rim; smoothness carries
-//! depth on to the curve.
+//! falls off or rises towards it, and T turns. So in the end motion and depth are not fitted to the rim, and
+//! smoothness carries depth on to the curve.
 
 use crate::grid::Grid;
 

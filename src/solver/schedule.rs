@@ -186,6 +186,12 @@ impl Schedule {
         }
     }
 
+    /// Whether regions do without their rim: not before kinds and depths of relief have been chosen, for which
+    /// whatever tells relief is wanted.
+    pub fn spares_rims(&self) -> bool {
+        self.at_least(CHOOSING_AGAIN + 1)
+    }
+
     /// Whether hidden pixels are excused.
     pub fn excuses(&self) -> bool {
         self.at_least(EXCUSING)

@@ -174,8 +174,7 @@ impl Layers {
         Evidence {
             scale: self.here(),
             window,
-            // While curves may still be pixels off, what is left out might be the region's own.
-            withheld: if self.schedule.settled() {
+            withheld: if self.schedule.spares_rims() {
                 rim(&owned)
             } else {
                 None
