@@ -111,6 +111,22 @@ fn an_edge_of_depth_is_smoothed_less_where_edges_are_kept() {
     assert!((a - b).abs() < 1e-5 * b);
 }
 
+/// Else a soft prior would leave noise that is a pixel wide standing.
+#[test]
+fn a_pixel_that_sticks_out_is_smoothed_more_than_a_step_as_high() {
+    let cost = |rho: &dyn Fn(usize, usize) -> bool| {
+        let bends = Bends::of(&Grid::from_fn(W, H, |x, y| 5.0 * f32::from(rho(x, y))));
+        let [kept, level] = [Diffusion::Anisotropic, Diffusion::Isotropic]
+            .map(|diffusion| whole(&prior(diffusion).edges(&bends), &bends));
+        kept / level
+    };
+    let (speck, step) = (cost(&|x, y| (x, y) == (6, 4)), cost(&|x, _| x > 6));
+    assert!(
+        speck > 2.0 * step,
+        "a pixel {speck}, a step {step} of what they cost without edges"
+    );
+}
+
 #[test]
 fn a_step_on_a_crease_costs_its_share_and_a_gentle_bend_costs_the_same() {
     let share = 0.1;

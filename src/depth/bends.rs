@@ -5,7 +5,7 @@
 //! bend next to not at all, up to the region's curve; folds and steps do.
 
 use super::local_line::local_line;
-use super::region_field::Plane;
+use super::plane::Plane;
 use crate::grid::Grid;
 
 /// How the steps of a field to the right and down differ from those expected of it.

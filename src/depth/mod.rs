@@ -6,6 +6,7 @@ mod crease;
 mod descent;
 mod elliptic;
 mod local_line;
+mod plane;
 mod region_field;
 mod smoothness;
 
@@ -15,5 +16,6 @@ pub use crease::creases;
 pub use descent::{DepthDescent, NEAREST_FARTHEST};
 pub use elliptic::Elliptic;
 pub use local_line::local_line;
-pub use region_field::{Edges, FieldPrior, Plane};
+pub use plane::Plane;
+pub use region_field::{Edges, FieldPrior};
 pub use smoothness::Smoothness;

@@ -6,14 +6,19 @@
 //!
 //! ρ = 1/Z makes the data term linear. s is the step that is expected (`bends.rs`), lagged: what is smoothed is how
 //! ρ bends. c is (11) or (12) of the bend over ε, lagged; ε is in units of mean ρ per focal length, so that it
-//! means a slope of the surface and not of pixels, and less on creases (`crease.rs`). Weights are in units of the
-//! noise's variance. κ keeps relief that nothing shows from growing.
+//! means a slope of the surface and not of pixels, and less on creases (`crease.rs`). The bend that c sees is averaged
+//! over a pixel or two: a fold is a line and stays, a pixel that sticks out by itself, which is noise, is pulled back
+//! (Catté, Lions, Morel & Coll 1992). Weights are in units of the noise's variance. κ keeps relief that nothing shows
+//! from growing.
 
 use super::bends::Bends;
 use super::elliptic::Elliptic;
+use crate::frames::blur;
 use crate::grid::Grid;
-use crate::motion::solve_positive;
 use crate::options::Diffusion;
+
+/// Standard deviation of the window over which bends are averaged before c sees them, in pixels.
+const FOLD: f64 = 1.5;
 
 /// Smoothness of a region's ρ.
 #[derive(Clone, Debug)]
@@ -42,35 +47,43 @@ impl FieldPrior {
         let (width, height) = (bends.right.width(), bends.right.height());
         let e2 = (self.epsilon * self.epsilon) as f32;
         let flat = (self.strength as f32) / e2;
-        let share =
-            |axis: usize, i: usize| self.creases.as_ref().map_or(1.0, |s| s[axis].data()[i]);
-        let weight = |axis: usize, i: usize, r2: f32| match self.diffusion {
-            Diffusion::Anisotropic => {
-                let s = share(axis, i);
-                flat / (1.0 + r2 / (e2 * s * s)).sqrt()
-            }
-            Diffusion::Isotropic => flat,
-        };
-        let mut right = vec![0.0; width * height];
-        let mut below = vec![0.0; width * height];
-        for y in 0..height {
-            for x in 0..width {
-                let i = y * width + x;
-                let (dx, dy) = (bends.right.data()[i], bends.down.data()[i]);
-                let r2 = dx * dx + dy * dy;
-                if x + 1 < width {
-                    right[i] = weight(0, i, r2);
-                }
-                if y + 1 < height {
-                    below[i] = weight(1, i, r2);
-                }
-            }
+        if self.diffusion == Diffusion::Isotropic {
+            return Edges::new(width, height, |_, _| flat);
         }
-        Edges { right, below }
+        let [right, down] = [&bends.right, &bends.down].map(|bend| blur(bend, FOLD));
+        let fold2 = Grid::from_fn(width, height, |x, y| {
+            right[(x, y)].powi(2) + down[(x, y)].powi(2)
+        });
+        Edges::new(width, height, |axis, at| {
+            let share = self.creases.as_ref().map_or(1.0, |s| s[axis][at]);
+            flat / (1.0 + fold2[at] / (e2 * share * share)).sqrt()
+        })
     }
 }
 
 impl Edges {
+    /// `weight` of the edges to the right (axis 0) and below (1) of each pixel; none leads out of the grid.
+    fn new(width: usize, height: usize, weight: impl Fn(usize, (usize, usize)) -> f32) -> Self {
+        let right = |x, y| {
+            if x + 1 < width {
+                weight(0, (x, y))
+            } else {
+                0.0
+            }
+        };
+        let below = |x, y| {
+            if y + 1 < height {
+                weight(1, (x, y))
+            } else {
+                0.0
+            }
+        };
+        Self {
+            right: Grid::from_fn(width, height, right).into_vec(),
+            below: Grid::from_fn(width, height, below).into_vec(),
+        }
+    }
+
     /// The operator with data weights `data` on the diagonal.
     pub fn system(&self, width: usize, height: usize, data: Vec<f32>) -> Elliptic {
         Elliptic::new(width, height, data, self.right.clone(), self.below.clone())
@@ -126,63 +139,5 @@ impl Edges {
             f64::from(own * bent)
         });
         each.sum()
-    }
-}
-
-/// A plane over a grid.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plane {
-    /// Its height in the middle of the grid, and its rise over a grid's width to the right and down.
-    coefficients: [f64; 3],
-    middle: [f64; 2],
-    unit: f64,
-}
-
-impl Plane {
-    /// The plane nearest to `rho` under `weight`; level at 1 when that leaves it open.
-    pub fn fit(rho: &Grid<f32>, weight: &Grid<f32>) -> Self {
-        let (width, height) = (rho.width(), rho.height());
-        let mut plane = Self {
-            coefficients: [1.0, 0.0, 0.0],
-            middle: [width as f64 / 2.0, height as f64 / 2.0],
-            unit: width as f64,
-        };
-        let mut normal = [[0.0; 3]; 3];
-        let mut right = [0.0; 3];
-        for y in 0..height {
-            for x in 0..width {
-                let w = f64::from(weight[(x, y)]);
-                if w <= 0.0 {
-                    continue;
-                }
-                let a = plane.basis(x as f64, y as f64);
-                for i in 0..3 {
-                    for j in 0..=i {
-                        normal[i][j] += w * a[i] * a[j];
-                    }
-                    right[i] += w * a[i] * f64::from(rho[(x, y)]);
-                }
-            }
-        }
-        if let Some(found) = solve_positive(&normal, &right) {
-            plane.coefficients = found;
-        }
-        plane
-    }
-
-    /// Its height at column `x` and row `y`, which may lie beyond the grid.
-    pub fn at(&self, x: f64, y: f64) -> f64 {
-        let basis = self.basis(x, y);
-        (0..3).map(|i| self.coefficients[i] * basis[i]).sum()
-    }
-
-    /// Its rise over a pixel to the right and down.
-    pub fn slope(&self) -> [f64; 2] {
-        [1, 2].map(|i| self.coefficients[i] / self.unit)
-    }
-
-    fn basis(&self, x: f64, y: f64) -> [f64; 3] {
-        let [cx, cy] = self.middle;
-        [1.0, (x - cx) / self.unit, (y - cy) / self.unit]
     }
 }

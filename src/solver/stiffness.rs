@@ -21,8 +21,6 @@ use crate::grid::Grid;
 
 /// Shares of μ that are tried, the stiffest first.
 const SHARES: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 0.0625];
-/// How many of them are where depth may step on edges: it follows noise before it needs more.
-const WITH_CREASES: usize = 3;
 /// Side of a block, in pixels.
 const SIDE: usize = 8;
 /// Pixels inside a block's border that are not judged.
@@ -36,11 +34,7 @@ pub(super) fn foretelling(region: &Region, evidence: &Evidence, prior: &FieldPri
     if !region.kind.translates() {
         return SHARES[0];
     }
-    let shares = match prior.creases {
-        Some(_) => &SHARES[..WITH_CREASES],
-        None => &SHARES[..],
-    };
-    let trials = trials(region, evidence, prior, shares);
+    let trials = trials(region, evidence, prior);
     let total = |trial: &Vec<f64>| trial.iter().sum::<f64>();
     let least = trials.iter().min_by(|a, b| total(a).total_cmp(&total(b)));
     let suits = |trial: &Vec<f64>| {
@@ -51,7 +45,7 @@ pub(super) fn foretelling(region: &Region, evidence: &Evidence, prior: &FieldPri
         }
         sum <= square.sqrt()
     };
-    let stiffest = shares.iter().zip(&trials).find(|(_, trial)| suits(trial));
+    let stiffest = SHARES.iter().zip(&trials).find(|(_, trial)| suits(trial));
     stiffest.map_or(SHARES[0], |(share, _)| *share)
 }
 
@@ -68,22 +62,17 @@ fn judged(region: &Region, evidence: &Evidence) -> Grid<f32> {
     })
 }
 
-/// For each of `shares` what each block adds to CV.
-fn trials(
-    region: &Region,
-    evidence: &Evidence,
-    prior: &FieldPrior,
-    shares: &[f64],
-) -> Vec<Vec<f64>> {
+/// For each of [`SHARES`] what each block adds to CV.
+fn trials(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> Vec<Vec<f64>> {
     let judged = judged(region, evidence);
     let (width, height) = (judged.width(), judged.height());
     let across = width.div_ceil(SIDE);
-    let mut trials = vec![vec![0.0; across * height.div_ceil(SIDE)]; shares.len()];
+    let mut trials = vec![vec![0.0; across * height.div_ceil(SIDE)]; SHARES.len()];
     for fold in 0..4 {
         let withheld = |x: usize, y: usize| (x / SIDE) % 2 + 2 * ((y / SIDE) % 2) == fold;
         let known = evidence.without(withheld);
         let mut part = region.clone();
-        for (share, blocks) in shares.iter().zip(&mut trials) {
+        for (share, blocks) in SHARES.iter().zip(&mut trials) {
             let prior = FieldPrior {
                 strength: share * prior.strength,
                 ..prior.clone()
