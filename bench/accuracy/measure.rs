@@ -115,7 +115,7 @@ pub fn solve(
 }
 
 /// Region k's share of the frame, and what its true motion is as far as it shows.
-fn seen(truth: &Interpretation, k: usize) -> (f64, Kind) {
+pub fn seen(truth: &Interpretation, k: usize) -> (f64, Kind) {
     let all = truth.labels.data().iter().zip(truth.depth.data());
     let inside = all.filter(|(label, _)| usize::from(**label) == k);
     let depths: Vec<f64> = inside.map(|(_, &z)| f64::from(z)).collect();
