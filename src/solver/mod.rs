@@ -1,16 +1,13 @@
 //! The three steps in turn: motion, depth, curves; and what a person may do meanwhile.
 //!
 //! Only this module knows the order of the steps; none of them calls another. A pass is
-//! motion → depth → curves, and ends with the curves, taken singly or not. The solver stops as
-//! - *converged* when, for three passes running, at most `tolerance` of all pixels change region and
-//!   the energy changes by less than a thousandth,
-//! - *exhausted* (out of iterations) after `max_passes` since the curves were drawn,
-//! - *diverged* when the energy is no longer a finite number.
+//! motion → depth → curves, and ends with the curves, taken singly or not; `history.rs` says when it stops.
 
 mod approach;
 mod choice;
 mod composition;
 mod evidence;
+mod history;
 mod layers;
 mod leap;
 mod noise;
@@ -23,14 +20,15 @@ mod single_scale;
 mod stiffness;
 mod weights;
 
+pub use history::Status;
 pub use report::{RegionReport, Report, Seconds};
 pub use weights::Weights;
 
 use std::rc::Rc;
 
 use approach::Approach;
+use history::{History, Stage};
 use layers::Layers;
-use serde::Serialize;
 use single_scale::SingleScale;
 
 use crate::camera::Camera;
@@ -42,25 +40,6 @@ use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 use crate::options::{DepthMethod, MAX_CURVES, Options};
 
-/// Where the solver stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Status {
-    /// There is more to do.
-    Running,
-    /// Curves and energy stand still.
-    Converged,
-    /// All passes allowed are used up.
-    Exhausted,
-    /// The energy is not a finite number.
-    Diverged,
-}
-
-/// Passes for which all must stand still.
-const STILL_PASSES: usize = 3;
-/// Relative change of energy that counts as standing still.
-const STILL_ENERGY: f64 = 1e-3;
-
 /// Finds regions, motions and depth of a pair of frames.
 pub struct Solver {
     pair: Rc<FramePair>,
@@ -69,16 +48,7 @@ pub struct Solver {
     options: Options,
     approach: Box<dyn Approach>,
     status: Status,
-    history: Vec<f64>,
-    /// Passes that had been made when each finer scale was reached.
-    refined: Vec<usize>,
-    /// Passes that had been made each time that curves had settled.
-    settled: Vec<usize>,
-    /// Passes that had been made each time that motions had come to rest.
-    rested: Vec<usize>,
-    /// Passes that had been made when the curves were drawn last.
-    drawn_at: usize,
-    still: usize,
+    history: History,
     seconds: Seconds,
     clock: fn() -> f64,
 }
@@ -106,12 +76,7 @@ impl Solver {
             shapes: shapes.to_vec(),
             options,
             status: Status::Running,
-            history: Vec::new(),
-            refined: Vec::new(),
-            settled: Vec::new(),
-            rested: Vec::new(),
-            drawn_at: 0,
-            still: 0,
+            history: History::default(),
             seconds: Seconds::default(),
             clock: || 0.0,
         })
@@ -139,42 +104,11 @@ impl Solver {
         let after = self.approach.labels();
         let changed = before.data().iter().zip(after.data());
         let changed = changed.filter(|(a, b)| a != b).count() as f64 / before.len() as f64;
-        let level = self
-            .history
-            .last()
-            .is_some_and(|e| (e - energy).abs() <= STILL_ENERGY * e.abs());
-        self.still = if level && changed <= self.options.tolerance {
-            self.still + 1
-        } else {
-            0
-        };
-        self.history.push(energy);
-        let (scale, settled) = (self.approach.scale(), self.approach.settled());
-        let rests = self.approach.rests();
-        if self
-            .approach
-            .end_pass(self.still >= STILL_PASSES, &self.options)
-        {
-            self.still = 0;
-        }
-        if self.approach.scale() != scale {
-            self.refined.push(self.history.len());
-        }
-        if self.approach.settled() && !settled {
-            self.settled.push(self.history.len());
-        }
-        if self.approach.rests() && !rests {
-            self.rested.push(self.history.len());
-        }
-        self.status = if !energy.is_finite() {
-            Status::Diverged
-        } else if self.still >= STILL_PASSES {
-            Status::Converged
-        } else if self.used_up() {
-            Status::Exhausted
-        } else {
-            Status::Running
-        };
+        let still = self.history.enter(energy, changed, self.options.tolerance);
+        let stage = Stage::of(&*self.approach);
+        let more = self.approach.end_pass(still, &self.options);
+        self.history.leave(stage, Stage::of(&*self.approach), more);
+        self.status = self.history.status(&self.options);
     }
 
     /// Step 1 alone: the motion of every region, for the present depth and curves.
@@ -212,12 +146,12 @@ impl Solver {
 
     /// Passes made.
     pub fn iterations(&self) -> usize {
-        self.history.len()
+        self.history.energies.len()
     }
 
     /// The total energy after each pass.
     pub fn history(&self) -> &[f64] {
-        &self.history
+        &self.history.energies
     }
 
     /// The frames.
@@ -262,7 +196,7 @@ impl Solver {
         let level_sets = level_sets(&self.pair, shapes)?;
         self.shapes = shapes.to_vec();
         self.approach.replace_curves(level_sets, &self.options);
-        self.drawn_at = self.history.len();
+        self.history.draw();
         self.resume();
         Ok(())
     }
@@ -271,11 +205,7 @@ impl Solver {
     pub fn reset(&mut self) {
         let level_sets = level_sets(&self.pair, &self.shapes).unwrap_or_default();
         self.approach = begin(&self.pair, self.camera, level_sets, &self.options);
-        self.history.clear();
-        self.refined.clear();
-        self.settled.clear();
-        self.rested.clear();
-        self.drawn_at = 0;
+        self.history = History::default();
         self.seconds = Seconds::default();
         self.resume();
     }
@@ -297,17 +227,8 @@ impl Solver {
         Report::of(self)
     }
 
-    fn used_up(&self) -> bool {
-        self.history.len() - self.drawn_at >= self.options.max_passes
-    }
-
     fn resume(&mut self) {
-        self.still = 0;
-        self.status = if self.used_up() {
-            Status::Exhausted
-        } else {
-            Status::Running
-        };
+        self.status = self.history.resume(&self.options);
     }
 }
 

@@ -1,0 +1,131 @@
+//! The passes that a solver has made, and whether it goes on. It stops as
+//! - *converged* when, for three passes running, at most `tolerance` of all pixels change region and
+//!   the energy changes by less than a thousandth, and nothing more is due,
+//! - *exhausted* (out of iterations) after `max_passes` since the curves were drawn,
+//! - *diverged* when the energy is no longer a finite number.
+
+use serde::Serialize;
+
+use super::approach::Approach;
+use crate::options::Options;
+
+/// Where the solver stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// There is more to do.
+    Running,
+    /// Curves and energy stand still.
+    Converged,
+    /// All passes allowed are used up.
+    Exhausted,
+    /// The energy is not a finite number.
+    Diverged,
+}
+
+/// Passes for which all must stand still.
+const STILL_PASSES: usize = 3;
+/// Relative change of energy that counts as standing still.
+const STILL_ENERGY: f64 = 1e-3;
+
+/// What has been passed through. Passes are counted by how many had been made.
+#[derive(Clone, Debug, Default)]
+pub(super) struct History {
+    /// The total energy after each pass.
+    pub energies: Vec<f64>,
+    /// When each finer scale was reached.
+    pub refined: Vec<usize>,
+    /// When curves had settled, each time.
+    pub settled: Vec<usize>,
+    /// When motions had come to rest, each time.
+    pub rested: Vec<usize>,
+    /// When the curves were drawn last.
+    drawn: usize,
+    /// Passes for which all has stood still.
+    still: usize,
+}
+
+/// What an approach tells of where it is.
+#[derive(Clone, Copy)]
+pub(super) struct Stage {
+    scale: (usize, usize),
+    settled: bool,
+    rests: bool,
+}
+
+impl Stage {
+    pub fn of(approach: &dyn Approach) -> Self {
+        Self {
+            scale: approach.scale(),
+            settled: approach.settled(),
+            rests: approach.rests(),
+        }
+    }
+}
+
+impl History {
+    /// Enters a pass after which the energy is so much, and in which that share of all pixels has changed region;
+    /// whether all has stood still for long enough.
+    pub fn enter(&mut self, energy: f64, changed: f64, tolerance: f64) -> bool {
+        let level = self
+            .energies
+            .last()
+            .is_some_and(|e| (e - energy).abs() <= STILL_ENERGY * e.abs());
+        self.still = if level && changed <= tolerance {
+            self.still + 1
+        } else {
+            0
+        };
+        self.energies.push(energy);
+        self.still >= STILL_PASSES
+    }
+
+    /// Enters what the pass has led to, and whether `more` is due.
+    pub fn leave(&mut self, before: Stage, after: Stage, more: bool) {
+        let now = self.energies.len();
+        if after.scale != before.scale {
+            self.refined.push(now);
+        }
+        if after.settled && !before.settled {
+            self.settled.push(now);
+        }
+        if after.rests && !before.rests {
+            self.rested.push(now);
+        }
+        if more {
+            self.still = 0;
+        }
+    }
+
+    /// Where the solver stands after a pass.
+    pub fn status(&self, options: &Options) -> Status {
+        if self.energies.last().is_some_and(|e| !e.is_finite()) {
+            Status::Diverged
+        } else if self.still >= STILL_PASSES {
+            Status::Converged
+        } else if self.used_up(options) {
+            Status::Exhausted
+        } else {
+            Status::Running
+        }
+    }
+
+    /// Curves are drawn anew: passes allowed are counted from here.
+    pub fn draw(&mut self) {
+        self.drawn = self.energies.len();
+    }
+
+    /// Something has been changed, and what stood still may move again; where the solver stands then.
+    pub fn resume(&mut self, options: &Options) -> Status {
+        self.still = 0;
+        if self.used_up(options) {
+            Status::Exhausted
+        } else {
+            Status::Running
+        }
+    }
+
+    fn used_up(&self, options: &Options) -> bool {
+        self.energies.len() - self.drawn >= options.max_passes
+    }
+}
