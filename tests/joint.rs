@@ -4,10 +4,10 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use glam::DVec3;
-use relievo::depth::{Bends, FieldPrior};
-use relievo::motion::{Blocks, Candidate, JointStep, Kind, held};
+use relievo::depth::{Bends, Cubic, FieldPrior};
+use relievo::motion::{Blocks, Candidate, Joint, JointStep, Kind, held};
 use relievo::options::Diffusion;
-use relievo::warp::{Linearisation, RESIDUAL, Scale};
+use relievo::warp::{Linearisation, RESIDUAL, Row, Scale};
 use relievo::{Camera, Grid, RigidMotion, Window};
 
 const W: usize = 72;
@@ -146,9 +146,17 @@ fn relief() -> Grid<f32> {
     })
 }
 
-/// Two frames of a scene with relief that moves by `motion`.
-fn filmed(motion: &RigidMotion) -> Scale {
-    let (camera, rho) = (camera(), relief());
+/// 1 in the middle.
+fn saddle() -> Grid<f32> {
+    Grid::from_fn(W, H, |x, y| {
+        let (x, y) = (x as f32 / 36.0 - 1.0, y as f32 / 28.0 - 1.0);
+        1.0 + 0.25 * (x * x - y * y) + 0.1 * x * y * y
+    })
+}
+
+/// Two frames of a scene of inverse depth `rho` that moves by `motion`.
+fn filmed(motion: &RigidMotion, rho: &Grid<f32>) -> Scale {
+    let camera = camera();
     let first = Grid::from_fn(W, H, |x, y| {
         let (px, py) = (x as f64, y as f64);
         let (u, v) = camera
@@ -160,6 +168,50 @@ fn filmed(motion: &RigidMotion) -> Scale {
     Scale::new(camera, first, second)
 }
 
+/// How depth is smoothed.
+fn prior(strength: f64) -> FieldPrior {
+    FieldPrior {
+        diffusion: Diffusion::Isotropic,
+        strength,
+        epsilon: 0.01,
+        creases: None,
+        within: None,
+        relief: 0.0,
+    }
+}
+
+/// A joint step from `motion` and `rho`, of `kind`.
+fn step(
+    scale: &Scale,
+    motion: &RigidMotion,
+    rho: &Grid<f32>,
+    kind: Kind,
+    prior: &FieldPrior,
+    surface: Option<&Cubic>,
+) -> Joint {
+    let line = scale.linearise(motion, rho, scale.whole());
+    let weight = line.inside.map(f32::from);
+    let smoothed = surface.map_or_else(|| rho.clone(), |cubic| cubic.departure(rho));
+    let bends = Bends::of(&smoothed);
+    let edges = prior.edges(&bends);
+    let each =
+        |of: fn(&Row) -> f32| Grid::from_fn(W, H, |x, y| weight[(x, y)] * of(&line.rows[(x, y)]));
+    let data = each(|row| row[0] * row[0]);
+    JointStep {
+        rows: &line.rows,
+        weight: &weight,
+        system: &edges.system(W, H, data.clone().into_vec()),
+        data: &data,
+        force: &each(|row| -row[0] * row[RESIDUAL]),
+        pull: &edges.pull(&bends),
+        surface,
+        rotation_prior: 0.0,
+        kind,
+        longest: 2.0 / scale.camera.focal,
+    }
+    .solve(motion)
+}
+
 /// `steps` joint steps.
 fn refine(
     scale: &Scale,
@@ -168,30 +220,8 @@ fn refine(
     kind: Kind,
     steps: usize,
 ) -> (RigidMotion, Grid<f32>) {
-    let prior = FieldPrior {
-        diffusion: Diffusion::Isotropic,
-        strength: 0.01,
-        epsilon: 0.01,
-        creases: None,
-        relief: 0.0,
-    };
     for _ in 0..steps {
-        let line = scale.linearise(&motion, &rho, scale.whole());
-        let weight = line.inside.map(f32::from);
-        let level = Bends::of(&rho);
-        let edges = prior.edges(&level);
-        let data = line.rows.data().iter().zip(weight.data());
-        let data = data.map(|(row, w)| w * row[0] * row[0]).collect();
-        let step = JointStep {
-            rows: &line.rows,
-            weight: &weight,
-            system: &edges.system(W, H, data),
-            pull: &edges.pull(&level),
-            rotation_prior: 0.0,
-            kind,
-            longest: 2.0 / scale.camera.focal,
-        }
-        .solve(&motion);
+        let step = step(scale, &motion, &rho, kind, &prior(0.01), None);
         motion = step.motion;
         for (r, d) in rho.data_mut().iter_mut().zip(step.depth_step.data()) {
             *r += d;
@@ -203,7 +233,7 @@ fn refine(
 #[test]
 fn joint_steps_lead_from_a_rough_motion_to_the_true_one() {
     let truth = motion([0.05, 0.02, 0.02], [0.01, -0.012, 0.015]);
-    let scale = filmed(&truth);
+    let scale = filmed(&truth, &relief());
     let rough = motion([0.048, 0.032, 0.012], [0.004, -0.004, 0.005]);
     let before = degrees(rough.translation, truth.translation);
     let (found, rho) = refine(&scale, rough, Grid::new(W, H, 1.0), Kind::Full, 12);
@@ -219,10 +249,128 @@ fn joint_steps_lead_from_a_rough_motion_to_the_true_one() {
     assert!(error < 0.04, "1/Z is off by {error}");
 }
 
+/// However stiff depth is otherwise. What is stiff and has no such surface comes out flat, and T with it.
+#[test]
+fn a_saddle_keeps_its_relief_where_cubic_surfaces_are_free() {
+    let saddle = saddle();
+    let truth = motion([0.05, 0.02, 0.02], [0.01, -0.012, 0.015]);
+    let scale = filmed(&truth, &saddle);
+    let cubic = Cubic::over(&Grid::new(W, H, 1.0)).unwrap();
+    let found = |surface: Option<&Cubic>| {
+        let mut motion = motion([0.048, 0.032, 0.012], [0.004, -0.004, 0.005]);
+        let mut rho = Grid::new(W, H, 1.0f32);
+        for _ in 0..15 {
+            let step = step(&scale, &motion, &rho, Kind::Full, &prior(1000.0), surface);
+            motion = step.motion;
+            for (r, d) in rho.data_mut().iter_mut().zip(step.depth_step.data()) {
+                *r += d;
+            }
+        }
+        let mean = |g: &Grid<f32>| g.data().iter().sum::<f32>() / g.len() as f32;
+        let (of_found, of_truth) = (mean(&rho), mean(&saddle));
+        let pairs = rho.data().iter().zip(saddle.data());
+        let (mut both, mut square) = (0.0, 0.0);
+        for (a, b) in pairs {
+            let b = b / of_truth - 1.0;
+            both += (a / of_found - 1.0) * b;
+            square += b * b;
+        }
+        (
+            both / square,
+            degrees(motion.translation, truth.translation),
+        )
+    };
+    let (relief, off) = found(Some(&cubic));
+    assert!((relief - 1.0).abs() < 0.05, "{relief} of the relief");
+    assert!(off < 1.0, "T is off by {off}°");
+    let (relief, off) = found(None);
+    assert!(relief < 0.5 && off > 1.0, "{relief}, {off}° without");
+}
+
+/// Each number that is free lowers the energy no further: neither motion, nor a surface, nor what departs from it.
+#[test]
+fn a_step_ends_where_its_energy_is_least() {
+    let scale = filmed(&motion([0.05, 0.02, 0.02], [0.0; 3]), &saddle());
+    let cubic = Cubic::over(&Grid::new(W, H, 1.0)).unwrap();
+    let from = motion([0.05, 0.021, 0.019], [0.0; 3]);
+    let rho = saddle().map(|r| 0.5 * r + 0.5);
+    let line = scale.linearise(&from, &rho, scale.whole());
+    let weight = line.inside.map(f32::from);
+    let prior = prior(100.0);
+    let departure = cubic.departure(&rho);
+    let edges = prior.edges(&Bends::of(&departure));
+    let whole = Grid::new(W, H, 1.0);
+    // The step's model: data around where it starts, and smoothness of what departs from a cubic.
+    let energy = |step: &[f64; 6], departs: &Grid<f32>, surface: &Grid<f32>| {
+        let mut data = 0.0;
+        for (i, row) in line.rows.data().iter().enumerate() {
+            let by_motion: f64 = (0..6).map(|r| f64::from(row[1 + r]) * step[r]).sum();
+            let by_depth = f64::from(row[0] * (departs.data()[i] + surface.data()[i]));
+            let r = f64::from(row[RESIDUAL]) + by_motion + by_depth;
+            data += f64::from(weight.data()[i]) * r * r;
+        }
+        let smoothed = Grid::from_fn(W, H, |x, y| departure[(x, y)] + departs[(x, y)]);
+        data + edges.energy(&Bends::of(&smoothed), &whole)
+    };
+    let taken = step(&scale, &from, &rho, Kind::Translation, &prior, Some(&cubic));
+    let moved = taken.motion.translation - from.translation;
+    let shift = [moved.x, moved.y, moved.z, 0.0, 0.0, 0.0];
+    // The part of δρ that the surfaces are is not told: any split costs least with that which smoothness likes best.
+    let best = |shift: &[f64; 6], rho_step: &Grid<f32>| {
+        let mut surface = Grid::new(W, H, 0.0f32);
+        for _ in 0..30 {
+            for term in cubic.terms() {
+                let cost = |by: f32| {
+                    let surface = Grid::from_fn(W, H, |x, y| surface[(x, y)] + by * term[(x, y)]);
+                    let departs = Grid::from_fn(W, H, |x, y| rho_step[(x, y)] - surface[(x, y)]);
+                    energy(shift, &departs, &surface)
+                };
+                let (a, b, c) = (cost(-0.1), cost(0.0), cost(0.1));
+                let by = 0.05 * (a - c) / (a + c - 2.0 * b).max(1e-12);
+                for (s, t) in surface.data_mut().iter_mut().zip(term.data()) {
+                    *s += by as f32 * t;
+                }
+            }
+        }
+        let departs = Grid::from_fn(W, H, |x, y| rho_step[(x, y)] - surface[(x, y)]);
+        energy(shift, &departs, &surface)
+    };
+    let none = [0.0; 6];
+    let start = best(&none, &Grid::new(W, H, 0.0));
+    let end = best(&shift, &taken.depth_step);
+    assert!(end < 0.5 * start, "{start}, then {end}");
+    let across = from.translation.any_orthonormal_pair();
+    let less = |shift: &[f64; 6], step: &Grid<f32>, what: &str| {
+        let cost = best(shift, step);
+        assert!(
+            cost > end - 2e-4 * (start - end),
+            "{what}: {end}, then {cost}"
+        );
+    };
+    for d in [across.0, across.1, -across.0, -across.1] {
+        let mut other = shift;
+        for (s, d) in other.iter_mut().zip(d.to_array()) {
+            *s += 1e-4 * d;
+        }
+        less(&other, &taken.depth_step, "another T");
+    }
+    for term in cubic.terms() {
+        for by in [0.01, -0.01] {
+            let other = Grid::from_fn(W, H, |x, y| taken.depth_step[(x, y)] + by * term[(x, y)]);
+            less(&shift, &other, "another surface");
+        }
+    }
+    let waves = Grid::from_fn(W, H, |x, y| (0.7 * x as f32).sin() * (0.5 * y as f32).cos());
+    for by in [0.01, -0.01] {
+        let other = Grid::from_fn(W, H, |x, y| taken.depth_step[(x, y)] + by * waves[(x, y)]);
+        less(&shift, &other, "another departure");
+    }
+}
+
 #[test]
 fn a_kind_of_motion_forbids_what_it_says() {
     let truth = motion([0.04, 0.02, 0.0], [0.0, 0.0, 0.02]);
-    let scale = filmed(&truth);
+    let scale = filmed(&truth, &relief());
     let flat = || Grid::new(W, H, 1.0f32);
     let shift = motion([0.03, 0.0, 0.01], [0.0; 3]);
     let turn = motion([0.0; 3], [0.005, 0.0, 0.0]);

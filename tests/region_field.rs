@@ -25,6 +25,7 @@ fn prior(diffusion: Diffusion) -> FieldPrior {
         strength: 0.3,
         epsilon: 0.5,
         creases: None,
+        within: None,
         relief: 0.0,
     }
 }
@@ -166,7 +167,7 @@ fn a_plane_costs_nothing() {
     let [right, down] = fitted.slope();
     assert!((right + 0.04).abs() < 1e-5 && (down - 0.07).abs() < 1e-5);
     let nothing = Grid::new(W, H, 0.0f32);
-    let departure = Bends::about_slope(&plane, &nothing, &fitted, 3.0);
+    let departure = Bends::about_slope(&plane, &nothing, fitted.slope(), 3.0);
     let plane_steps = Bends::of(&plane);
     for diffusion in [Diffusion::Isotropic, Diffusion::Anisotropic] {
         let prior = prior(diffusion);
@@ -193,7 +194,7 @@ fn charged(rho: &Grid<f32>) -> (f64, f64) {
     let plane = Plane::fit(rho, &owned);
     let prior = prior(Diffusion::Isotropic);
     let cost = |bends: &Bends| prior.edges(bends).energy(bends, &owned);
-    let about = Bends::about_slope(rho, &owned, &plane, 5.0);
+    let about = Bends::about_slope(rho, &owned, plane.slope(), 5.0);
     (cost(&about), cost(&Bends::of(rho)))
 }
 
@@ -222,7 +223,7 @@ fn a_round_surface_hardly_bends_at_its_curve() {
     let owned = ring(0.0, 40.0);
     let prior = prior(Diffusion::Isotropic);
     let cost = |bends: &Bends, of: &Grid<f32>| prior.edges(bends).energy(bends, of);
-    let bends = Bends::about_slope(&rho, &owned, &Plane::fit(&rho, &owned), 5.0);
+    let bends = Bends::about_slope(&rho, &owned, Plane::fit(&rho, &owned).slope(), 5.0);
     let all = cost(&Bends::of(&rho), &owned);
     let of_rim = cost(&bends, &ring(0.0, 5.0));
     // After a mean of the steps around it is 0.036 of all.
@@ -243,7 +244,7 @@ fn where_nothing_is_known_the_plane_is_expected() {
     });
     let owned = Grid::from_fn(60, 48, |x, _| f32::from(known(x)));
     let far = Grid::from_fn(60, 48, |x, _| f32::from(x > 45));
-    let bends = Bends::about_slope(&rho, &owned, &Plane::fit(&rho, &far), 4.0);
+    let bends = Bends::about_slope(&rho, &owned, Plane::fit(&rho, &far).slope(), 4.0);
     let edges = prior(Diffusion::Isotropic).edges(&bends);
     let pull = edges.pull(&bends);
     assert!((48..60).all(|x| pull[(x, 24)].abs() < 1e-5));

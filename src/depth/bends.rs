@@ -1,11 +1,10 @@
 //! How a region's ρ bends: what its smoothness acts on.
 //!
 //! The steps of ρ to the right and down, less those that are expected: a line through ρ's own steps over some pixels
-//! around ([`local_line`]), and where the region has no pixels those of a plane. Slanted and gently curved surfaces
+//! around ([`local_line`]), and where the region has no pixels those of a plane that is given. Slanted and gently curved surfaces
 //! bend next to not at all, up to the region's curve; folds and steps do.
 
 use super::local_line::local_line;
-use super::plane::Plane;
 use crate::grid::Grid;
 
 /// How the steps of a field to the right and down differ from those expected of it.
@@ -35,11 +34,10 @@ impl Bends {
     }
 
     /// What is left of the steps of `rho` after those that `owned` pixels around let expect; where there are none,
-    /// after the steps of `plane`. `reach` is the standard deviation of "around", in pixels.
-    pub fn about_slope(rho: &Grid<f32>, owned: &Grid<f32>, plane: &Plane, reach: f64) -> Self {
+    /// after `slope`, per pixel to the right and down. `reach` is the standard deviation of "around", in pixels.
+    pub fn about_slope(rho: &Grid<f32>, owned: &Grid<f32>, slope: [f64; 2], reach: f64) -> Self {
         let steps = Self::of(rho);
         let (width, height) = (rho.width(), rho.height());
-        let slope = plane.slope();
         let bent = |steps: &Grid<f32>, ahead: (usize, usize), slope: f64| {
             let slope = slope as f32;
             let within = |x: usize, y: usize| x + ahead.0 < width && y + ahead.1 < height;

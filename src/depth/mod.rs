@@ -3,6 +3,7 @@
 mod bends;
 mod confidence;
 mod crease;
+mod cubic;
 mod descent;
 mod elliptic;
 mod local_line;
@@ -13,6 +14,7 @@ mod smoothness;
 pub use bends::Bends;
 pub use confidence::confidence;
 pub use crease::creases;
+pub use cubic::Cubic;
 pub use descent::{DepthDescent, NEAREST_FARTHEST};
 pub use elliptic::Elliptic;
 pub use local_line::local_line;

@@ -8,7 +8,8 @@
 //! ρ bends. c is (11) or (12) of the bend over ε, lagged; ε is in units of mean ρ per focal length, so that it
 //! means a slope of the surface and not of pixels, and less on creases (`crease.rs`). The bend that c sees is averaged
 //! over a pixel or two: a fold is a line and stays, a pixel that sticks out by itself, which is noise, is pulled back
-//! (Catté, Lions, Morel & Coll 1992). Weights are in units of the noise's variance. κ keeps relief that nothing shows
+//! (Catté, Lions, Morel & Coll 1992). Edges that leave the region count [`BEYOND`]: there smoothness only carries depth
+//! on, and what is carried on would else hold the surface along its curve, as a frame does a cloth. Weights are in units of the noise's variance. κ keeps relief that nothing shows
 //! from growing.
 
 use super::bends::Bends;
@@ -19,6 +20,9 @@ use crate::options::Diffusion;
 
 /// Standard deviation of the window over which bends are averaged before c sees them, in pixels.
 const FOLD: f64 = 1.5;
+
+/// What smoothness counts where an edge has an end outside of the region.
+const BEYOND: f32 = 0.1;
 
 /// Smoothness of a region's ρ.
 #[derive(Clone, Debug)]
@@ -31,6 +35,8 @@ pub struct FieldPrior {
     pub epsilon: f64,
     /// The share of ε that holds for the step to the right, and for the one down, of every pixel; none for all of it.
     pub creases: Option<[Grid<f32>; 2]>,
+    /// The region (> 0); none while everything counts as such.
+    pub within: Option<Grid<f32>>,
     /// Weight of (ρ − 1)² at each pixel of the region, grey levels².
     pub relief: f64,
 }
@@ -47,8 +53,15 @@ impl FieldPrior {
         let (width, height) = (bends.right.width(), bends.right.height());
         let e2 = (self.epsilon * self.epsilon) as f32;
         let flat = (self.strength as f32) / e2;
+        let counts = |axis: usize, at: (usize, usize)| {
+            let next = (at.0 + 1 - axis, at.1 + axis);
+            match &self.within {
+                Some(region) if region[at].min(region[next]) <= 0.0 => BEYOND,
+                _ => 1.0,
+            }
+        };
         if self.diffusion == Diffusion::Isotropic {
-            return Edges::new(width, height, |_, _| flat);
+            return Edges::new(width, height, |axis, at| flat * counts(axis, at));
         }
         let [right, down] = [&bends.right, &bends.down].map(|bend| blur(bend, FOLD));
         let fold2 = Grid::from_fn(width, height, |x, y| {
@@ -56,7 +69,7 @@ impl FieldPrior {
         });
         Edges::new(width, height, |axis, at| {
             let share = self.creases.as_ref().map_or(1.0, |s| s[axis][at]);
-            flat / (1.0 + fold2[at] / (e2 * share * share)).sqrt()
+            flat * counts(axis, at) / (1.0 + fold2[at] / (e2 * share * share)).sqrt()
         })
     }
 }

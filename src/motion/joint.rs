@@ -1,23 +1,25 @@
 //! Motion and depth of one region together: a Gauss–Newton step in which depth is eliminated exactly.
 //!
-//! With r ≈ r + a δρ + b·δm at each pixel (warp.rs; m = (T, ω)) and a smooth depth, the step minimises
+//! With r ≈ r + a δρ + b·δm at each pixel (warp.rs; m = (T, ω)) and ρ a cubic surface and a smooth departure from it
+//! (`depth/cubic.rs`), δρ = δd + Σ_k δq_k b_k, the step minimises
 //!
 //! ```text
-//! Σ ω_i (r + a δρ + b·δm)² + Σ_edges c_ij ((ρ+δρ)_i − (ρ+δρ)_j − plane_i + plane_j)² + prior(m)
+//! Σ ω_i (r + a δρ + b·δm)² + κ Σ (ρ + δρ − 1)² + Σ_edges c_ij ((d+δd)_i − (d+δd)_j − s_ij)² + prior(m)
 //! ```
 //!
-//! Alternating between depth and motion crawls along the valleys in which a small motion and a slant of
-//! the depth undo each other. Here the best depth for *every* motion is known to first order,
-//! δρ = x + S δm, with one linear system of seven right-hand sides, A x = −(ω a r + L(ρ − plane)) and
-//! A S = −ω a b; what is left is 6×6: H = Σ ω b bᵀ + Σ ω a b Sᵀ. T's length is not observable, so that δT
-//! is held perpendicular to T. One step; the caller repeats it around the new linearisation.
+//! Alternating between depth and motion crawls along the valleys in which a small motion and a slant or a bend of
+//! the depth undo each other. Here the best departure for *every* motion and surface is known to first order,
+//! δd = x + S z with z = (δm, δq), from one linear system with a right-hand side for each number in z and one more,
+//! A x = −(ω a r + κ (ρ − 1) + L(d, s)) and A S = −C, where C = ω a b for a motion and (ω a² + κ) b_k for a surface;
+//! what is left is at most 14 × 14. T's length is not observable, so that δT is held perpendicular to T. One step; the
+//! caller repeats it around the new linearisation.
 
 use glam::{DQuat, DVec3};
 
 use super::Kind;
 use super::cholesky::solve_positive;
 use crate::camera::RigidMotion;
-use crate::depth::Elliptic;
+use crate::depth::{Cubic, Elliptic};
 use crate::grid::Grid;
 use crate::warp::{RESIDUAL, Row};
 
@@ -27,10 +29,16 @@ pub struct JointStep<'a> {
     pub rows: &'a Grid<Row>,
     /// ω_i: 0 outside the region.
     pub weight: &'a Grid<f32>,
-    /// A: ω a² on the diagonal, the smoothing's c on the edges.
+    /// ω a² + κ.
+    pub data: &'a Grid<f32>,
+    /// −(ω a r + κ (ρ − 1)): how data and prior pull on ρ as it is.
+    pub force: &'a Grid<f32>,
+    /// A: `data` on the diagonal, the smoothing's c on the edges.
     pub system: &'a Elliptic,
-    /// −L(ρ − plane): how the smoothing pulls on ρ as it is.
+    /// −L(d, s): how the smoothing pulls on d as it is.
     pub pull: &'a Grid<f32>,
+    /// The surfaces that smoothness does not act on.
+    pub surface: Option<&'a Cubic>,
     /// Precision of each component of ω known beforehand, so that the prior is this times |ω|².
     pub rotation_prior: f64,
     /// What may move.
@@ -62,18 +70,26 @@ pub struct Joint {
 const TOLERANCE: f64 = 1e-3;
 /// Most iterations of conjugate gradients.
 const MOST_ITERATIONS: usize = 12;
-/// Directions of (T, ω) that may be free: T's length is not observable.
-const MOST_FREE: usize = 5;
+/// Numbers in z at most: T's length is not observable.
+const MOST_FREE: usize = 5 + Cubic::TERMS;
+
+/// z that is left once δd is eliminated: its normal equations.
+struct Reduced {
+    h: [[f64; MOST_FREE]; MOST_FREE],
+    g: [f64; MOST_FREE],
+}
 
 impl JointStep<'_> {
     /// Takes the step from `motion`.
     pub fn solve(&self, motion: &RigidMotion) -> Joint {
         let free = self.free_directions(motion);
-        // A lane for δρ as it is and one for each direction of (T, ω) that may change.
-        let (step, depth_step) = match free.len() {
-            0 => self.reduced::<1>(&free, motion),
-            1..=3 => self.reduced::<4>(&free, motion),
-            _ => self.reduced::<8>(&free, motion),
+        // A lane for δd as it is and one for each number in z.
+        let (step, depth_step) = match 1 + free.len() + self.surfaces().len() {
+            1 => self.step::<1>(&free, motion),
+            ..=4 => self.step::<4>(&free, motion),
+            ..=8 => self.step::<8>(&free, motion),
+            ..=12 => self.step::<12>(&free, motion),
+            _ => self.step::<16>(&free, motion),
         };
         let turn = DVec3::new(step[3], step[4], step[5]);
         let turn = DQuat::from_scaled_axis(turn);
@@ -86,30 +102,59 @@ impl JointStep<'_> {
         }
     }
 
-    /// The step of (T, ω) and of ρ, with L lanes for at most L − 1 free directions.
-    fn reduced<const L: usize>(
+    /// The step of (T, ω) and of ρ, with L lanes for at most L − 1 numbers in z.
+    fn step<const L: usize>(
         &self,
         free: &[[f64; 6]],
         motion: &RigidMotion,
     ) -> ([f64; 6], Grid<f32>) {
-        let n = self.rows.len();
-        let (rows, weight) = (self.rows.data(), self.weight.data());
+        let (right, mut reduced) = self.gather::<L>(free);
+        let mut solution = vec![[0.0f32; L]; right.len()];
+        if self.kind.translates() {
+            self.system
+                .solve(&right, &mut solution, TOLERANCE, MOST_ITERATIONS);
+        }
+        let surfaces = self.surfaces();
+        let all = free.len() + surfaces.len();
+        reduced.eliminate(&right, &solution, all);
+        reduced.expect(free, motion, self.rotation_prior);
+        let z = reduced.solve(all);
+        let wanted = std::array::from_fn(|r| free.iter().zip(&z).map(|(d, z)| d[r] * z).sum());
+        let step = held(wanted, self.longest);
+        let held = step.iter().zip(&wanted).find(|(_, w)| **w != 0.0);
+        let share = held.map_or(1.0, |(s, w)| s / w);
+        let z = z.map(|z| (share * z) as f32);
+        let mut depth_step = Grid::new(self.rows.width(), self.rows.height(), 0.0f32);
+        for (i, (d, s)) in depth_step.data_mut().iter_mut().zip(&solution).enumerate() {
+            *d = s[0] + (0..all).map(|j| s[1 + j] * z[j]).sum::<f32>();
+            for (surface, z) in surfaces.iter().zip(&z[free.len()..]) {
+                *d += surface.data()[i] * z;
+            }
+        }
+        (step, depth_step)
+    }
+
+    /// The right-hand sides, and what z would have to solve were δd held.
+    fn gather<const L: usize>(&self, free: &[[f64; 6]]) -> (Vec<[f32; L]>, Reduced) {
+        let surfaces = self.surfaces();
         let directions: Vec<[f32; 6]> = free.iter().map(|d| d.map(|x| x as f32)).collect();
-        let mut right = vec![[0.0f32; L]; n];
-        let mut h = [[0.0f64; MOST_FREE]; MOST_FREE];
-        let mut g = [0.0f64; MOST_FREE];
-        for i in 0..n {
-            let (row, w) = (&rows[i], weight[i]);
-            right[i][0] = self.pull.data()[i];
+        let moving = free.len();
+        let all = moving + surfaces.len();
+        let mut reduced = Reduced {
+            h: [[0.0; MOST_FREE]; MOST_FREE],
+            g: [0.0; MOST_FREE],
+        };
+        let Reduced { h, g } = &mut reduced;
+        let mut right = vec![[0.0f32; L]; self.rows.len()];
+        for (i, right) in right.iter_mut().enumerate() {
+            let (data, force) = (self.data.data()[i], self.force.data()[i]);
+            right[0] = self.pull.data()[i] + force;
+            let (row, w) = (&self.rows.data()[i], self.weight.data()[i]);
+            let mut b = [0.0f32; MOST_FREE];
             if w > 0.0 {
-                let wa = w * row[0];
-                right[i][0] -= wa * row[RESIDUAL];
-                let mut b = [0.0f32; MOST_FREE];
-                for (b, d) in b.iter_mut().zip(&directions) {
-                    *b = (0..6).map(|r| d[r] * row[1 + r]).sum();
-                }
-                for j in 0..free.len() {
-                    right[i][1 + j] = -wa * b[j];
+                for (j, d) in directions.iter().enumerate() {
+                    b[j] = (0..6).map(|r| d[r] * row[1 + r]).sum();
+                    right[1 + j] = -w * row[0] * b[j];
                     let wb = f64::from(w * b[j]);
                     g[j] += wb * f64::from(row[RESIDUAL]);
                     for k in 0..=j {
@@ -117,54 +162,27 @@ impl JointStep<'_> {
                     }
                 }
             }
-        }
-        let mut solution = vec![[0.0f32; L]; n];
-        if self.kind.translates() {
-            self.system
-                .solve(&right, &mut solution, TOLERANCE, MOST_ITERATIONS);
-        }
-        // Σ ω a b · (x, S), the eliminated depth's share.
-        for i in 0..n {
-            if weight[i] > 0.0 {
-                let (b, x) = (&right[i], &solution[i]);
-                for j in 0..free.len() {
-                    let wab = -f64::from(b[1 + j]);
-                    g[j] += wab * f64::from(x[0]);
-                    for k in 0..=j {
-                        h[j][k] += wab * f64::from(x[1 + k]);
-                    }
+            if data <= 0.0 {
+                continue;
+            }
+            for (j, surface) in (moving..all).zip(surfaces) {
+                let value = surface.data()[i];
+                right[1 + j] = -data * value;
+                let value = f64::from(value);
+                g[j] -= value * f64::from(force);
+                for k in 0..=j {
+                    h[j][k] -= value * f64::from(right[1 + k]);
                 }
             }
         }
-        let w = motion.rotation.to_array();
-        for j in 0..MOST_FREE {
-            let Some(d) = free.get(j) else {
-                // What is not free becomes the equation x = 0.
-                h[j][j] = 1.0;
-                continue;
-            };
-            for k in 0..=j {
-                let along: f64 = (3..6).map(|r| d[r] * free[k][r]).sum();
-                h[j][k] += self.rotation_prior * along;
-            }
-            g[j] += self.rotation_prior * (0..3).map(|r| d[3 + r] * w[r]).sum::<f64>();
-            // A touch of damping for motions that the region hardly shows.
-            h[j][j] *= 1.0 + 1e-6;
+        (right, reduced)
+    }
+
+    fn surfaces(&self) -> &[Grid<f32>] {
+        match self.surface {
+            Some(cubic) if self.kind.translates() => cubic.terms(),
+            _ => &[],
         }
-        let x = solve_positive(&h, &g.map(|g| -g)).unwrap_or_default();
-        let wanted = std::array::from_fn(|r| free.iter().zip(&x).map(|(d, x)| d[r] * x).sum());
-        let step = held(wanted, self.longest);
-        let share = step
-            .iter()
-            .zip(&wanted)
-            .find(|(_, w)| **w != 0.0)
-            .map_or(0.0, |(s, w)| s / w);
-        let mut depth_step = Grid::new(self.rows.width(), self.rows.height(), 0.0f32);
-        for (d, s) in depth_step.data_mut().iter_mut().zip(&solution) {
-            let by_motion: f32 = (0..free.len()).map(|j| s[1 + j] * x[j] as f32).sum();
-            *d = s[0] + share as f32 * by_motion;
-        }
-        (step, depth_step)
     }
 
     /// The directions of (T, ω) that the kind leaves free, T's perpendicular to T.
@@ -185,5 +203,45 @@ impl JointStep<'_> {
             }
         }
         free
+    }
+}
+
+impl Reduced {
+    /// Adds the share of δd, which is `solution` for the right-hand sides `right`: Σ C·(x, S).
+    fn eliminate<const L: usize>(&mut self, right: &[[f32; L]], solution: &[[f32; L]], all: usize) {
+        for (right, found) in right.iter().zip(solution) {
+            for j in 0..all {
+                let c = -f64::from(right[1 + j]);
+                self.g[j] += c * f64::from(found[0]);
+                for k in 0..=j {
+                    self.h[j][k] += c * f64::from(found[1 + k]);
+                }
+            }
+        }
+    }
+
+    /// Adds the prior of ω.
+    fn expect(&mut self, free: &[[f64; 6]], motion: &RigidMotion, prior: f64) {
+        let w = motion.rotation.to_array();
+        for (j, d) in free.iter().enumerate() {
+            for k in 0..=j {
+                self.h[j][k] += prior * (3..6).map(|r| d[r] * free[k][r]).sum::<f64>();
+            }
+            self.g[j] += prior * (0..3).map(|r| d[3 + r] * w[r]).sum::<f64>();
+        }
+    }
+
+    /// z, of which the first `all` numbers are free; 0 where the region leaves them open.
+    fn solve(mut self, all: usize) -> [f64; MOST_FREE] {
+        for j in 0..MOST_FREE {
+            if j < all {
+                // A touch of damping for what the region hardly shows.
+                self.h[j][j] *= 1.0 + 1e-6;
+            } else {
+                // What is not free becomes the equation z = 0.
+                self.h[j][j] = 1.0;
+            }
+        }
+        solve_positive(&self.h, &self.g.map(|g| -g)).unwrap_or_default()
     }
 }

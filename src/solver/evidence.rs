@@ -8,6 +8,7 @@
 //! A shadow that passes over the background changes many pixels by less than noise changes one. There the mean
 //! residual over some pixels around counts as well, in the same way and in units of its own spread.
 
+use crate::depth::Cubic;
 use crate::frames::blur;
 use crate::grid::Grid;
 use crate::warp::{Linearisation, RESIDUAL, Scale};
@@ -25,7 +26,7 @@ const SHADOW: f64 = 4.0;
 /// The same as c for that mean: depth that is not found yet leaves means of a few standard deviations.
 const SHADOWED: f32 = 6.0;
 /// Standard deviation of f·ω known beforehand, in pixels at the finest scale's width of 320.
-const ROTATION_SPREAD: f64 = 8.0;
+const ROTATION_SPREAD: f64 = 32.0;
 /// Smoothness of a change of brightness, in pixels, and the weight below which it is not known.
 const SHADE: f64 = 6.0;
 const UNSHADED: f32 = 0.05;
@@ -51,6 +52,8 @@ pub(super) struct Evidence<'a> {
     pub shadowed: bool,
     /// Pixels that motion and depth are not fitted to, though the region owns them.
     pub withheld: Option<Grid<bool>>,
+    /// What depth is smooth about; none for a plane.
+    pub cubic: Option<Cubic>,
 }
 
 impl Evidence<'_> {

@@ -114,14 +114,15 @@ impl Region {
         let weight = evidence.fitting_weights(&linearisation);
         let bends = self.bends(&linearisation, evidence, &weight);
         let edges = prior.edges(&bends);
-        let mut data = certainty(&linearisation, &weight);
-        let mut pull = edges.pull(&bends);
-        self.flatten(prior, evidence, &mut data, &mut pull);
+        let (data, force) = self.pull(&linearisation, &weight, evidence, prior);
         let step = JointStep {
             rows: &linearisation.rows,
             weight: &weight,
-            system: &edges.system(weight.width(), weight.height(), data.into_vec()),
-            pull: &pull,
+            system: &edges.system(weight.width(), weight.height(), data.clone().into_vec()),
+            data: &data,
+            force: &force,
+            pull: &edges.pull(&bends),
+            surface: evidence.cubic.as_ref(),
             rotation_prior: evidence.rotation_prior(),
             kind: self.kind,
             longest: evidence.longest(),
@@ -142,38 +143,34 @@ impl Region {
         let weight = evidence.fitting_weights(&linearisation);
         let bends = self.bends(&linearisation, evidence, &weight);
         let edges = prior.edges(&bends);
-        let mut data = certainty(&linearisation, &weight);
-        let mut pull = edges.pull(&bends);
-        self.flatten(prior, evidence, &mut data, &mut pull);
+        let (data, force) = self.pull(&linearisation, &weight, evidence, prior);
         let system = edges.system(weight.width(), weight.height(), data.into_vec());
-        let right: Vec<[f32; 1]> = linearisation
-            .rows
-            .data()
-            .iter()
-            .zip(weight.data())
-            .zip(pull.data())
-            .map(|((row, w), p)| [p - w * row[0] * row[RESIDUAL]])
-            .collect();
+        let smoothing = edges.pull(&bends);
+        let right = force.data().iter().zip(smoothing.data());
+        let right: Vec<[f32; 1]> = right.map(|(f, p)| [f + p]).collect();
         let mut step = vec![[0.0f32; 1]; right.len()];
         system.solve(&right, &mut step, 1e-3, 20);
         self.add_depth(step.into_iter().map(|[d]| d));
     }
 
-    /// Adds the pull of ρ towards 1 to a system's diagonal and right-hand side.
-    fn flatten(
+    /// What a change of ρ costs besides smoothness, ω a² + κ, and how data and the prior of relief pull on ρ as it is,
+    /// −(ω a r + κ (ρ − 1)).
+    fn pull(
         &self,
-        prior: &FieldPrior,
+        linearisation: &Linearisation,
+        weight: &Grid<f32>,
         evidence: &Evidence,
-        data: &mut Grid<f32>,
-        pull: &mut Grid<f32>,
-    ) {
-        let owned = evidence.owned.data().iter().zip(self.rho.data());
-        let sides = data.data_mut().iter_mut().zip(pull.data_mut());
-        for ((d, p), (&own, &rho)) in sides.zip(owned) {
-            let weight = prior.relief as f32 * own;
-            *d += weight;
-            *p += weight * (1.0 - rho);
+        prior: &FieldPrior,
+    ) -> (Grid<f32>, Grid<f32>) {
+        let mut data = certainty(linearisation, weight);
+        let mut force = weight.clone();
+        for (i, (d, f)) in data.data_mut().iter_mut().zip(force.data_mut()).enumerate() {
+            let row = &linearisation.rows.data()[i];
+            let relief = prior.relief as f32 * evidence.owned.data()[i];
+            *d += relief;
+            *f = relief * (1.0 - self.rho.data()[i]) - *f * row[0] * row[RESIDUAL];
         }
+        (data, force)
     }
 
     /// What the relief of the owned pixels costs.
@@ -202,15 +199,21 @@ impl Region {
         }
     }
 
-    /// How ρ departs from its own slope: what is smoothed.
+    /// How ρ departs from the surfaces that are free, or from its own slope: what is smoothed.
     pub fn bends(
         &self,
         linearisation: &Linearisation,
         evidence: &Evidence,
         weight: &Grid<f32>,
     ) -> Bends {
-        let plane = Plane::fit(&self.rho, &certainty(linearisation, weight));
-        Bends::about_slope(&self.rho, &evidence.owned, &plane, SLOPE)
+        let owned = &evidence.owned;
+        match &evidence.cubic {
+            Some(cubic) => Bends::about_slope(&cubic.departure(&self.rho), owned, [0.0; 2], SLOPE),
+            None => {
+                let plane = Plane::fit(&self.rho, &certainty(linearisation, weight));
+                Bends::about_slope(&self.rho, owned, plane.slope(), SLOPE)
+            }
+        }
     }
 
     fn add_depth(&mut self, step: impl Iterator<Item = f32>) {

@@ -24,7 +24,7 @@ use super::schedule::Schedule;
 use super::weights::Weights;
 use crate::camera::Camera;
 use crate::curves;
-use crate::depth::{self, FieldPrior};
+use crate::depth::{self, Cubic, FieldPrior};
 use crate::frames::{FramePair, Lighting, doubled, halved};
 use crate::grid::Grid;
 use crate::occlusion::Cover;
@@ -134,6 +134,7 @@ impl Layers {
             strength: self.weights.mu * stiffness,
             epsilon: options.epsilon * f64::from(1u32 << self.schedule.level),
             creases: self.creases(k, evidence, options),
+            within: evidence.cubic.as_ref().map(|_| evidence.owned.clone()),
             relief: evidence.relief_prior(),
         }
     }
@@ -171,14 +172,16 @@ impl Layers {
                 0.0
             }
         });
+        let withheld = if self.schedule.spares_rims() {
+            rim(&owned)
+        } else {
+            None
+        };
         Evidence {
             scale: self.here(),
             window,
-            withheld: if self.schedule.spares_rims() {
-                rim(&owned)
-            } else {
-                None
-            },
+            cubic: withheld.as_ref().and_then(|_| Cubic::over(&owned)),
+            withheld,
             owned,
             sigma: self.weights.sigma,
             spread: self.noise.regions[k].max(self.weights.sigma),
