@@ -25,7 +25,8 @@ const ROBUST: f32 = 3.0;
 const SHADOW: f64 = 4.0;
 /// The same as c for that mean: depth that is not found yet leaves means of a few standard deviations.
 const SHADOWED: f32 = 6.0;
-/// Standard deviation of f·ω known beforehand, in pixels at the finest scale's width of 320.
+/// Standard deviation of f·ω known beforehand, in pixels at the finest scale's width of 320: a body that turns in
+/// place has a large ω, and a T that brings it back.
 const ROTATION_SPREAD: f64 = 32.0;
 /// Smoothness of a change of brightness, in pixels, and the weight below which it is not known.
 const SHADE: f64 = 6.0;
@@ -52,7 +53,7 @@ pub(super) struct Evidence<'a> {
     pub shadowed: bool,
     /// Pixels that motion and depth are not fitted to, though the region owns them.
     pub withheld: Option<Grid<bool>>,
-    /// What depth is smooth about; none for a plane.
+    /// The surfaces that are free of charge; none where depth is smooth about its own slope.
     pub cubic: Option<Cubic>,
 }
 

@@ -1,6 +1,6 @@
 //! The rim of a region: pixels that another region's brightness reaches.
 //!
-//! Smoothing, derivatives and interpolation read brightness from a pixel or two around, and at a region's curve some
+//! Smoothing, derivatives and interpolation read brightness from two or three pixels around, and at a region's curve some
 //! of it is another's, which moves otherwise. What is fitted there errs all along the curve to the same side: depth
 //! falls off or rises towards it, and T turns. So in the end motion and depth are not fitted to the rim, and
 //! smoothness carries depth on to the curve.
@@ -8,7 +8,7 @@
 use crate::grid::Grid;
 
 /// Its width, in pixels.
-const WIDTH: i32 = 2;
+const WIDTH: f32 = 2.5;
 /// Share of a region that its rim may be: what is thin has little else.
 const MOST: f64 = 0.5;
 
@@ -16,11 +16,12 @@ const MOST: f64 = 0.5;
 /// The frame's own border is no curve.
 pub(super) fn rim(owned: &Grid<f32>) -> Option<Grid<bool>> {
     let (width, height) = (owned.width(), owned.height());
-    let across = -WIDTH..=WIDTH;
+    let reach = WIDTH as i32;
+    let across = -reach..=reach;
     let around: Vec<(i32, i32)> = across
         .clone()
         .flat_map(|dy| across.clone().map(move |dx| (dx, dy)))
-        .filter(|(dx, dy)| dx * dx + dy * dy <= WIDTH * WIDTH)
+        .filter(|&(dx, dy)| (dx as f32).hypot(dy as f32) <= WIDTH)
         .collect();
     let strange = |x: usize, y: usize, (dx, dy): (i32, i32)| {
         let place = x

@@ -180,6 +180,7 @@ impl Layers {
         Evidence {
             scale: self.here(),
             window,
+            // Fitted to its rim a surface would bend after what is there, having nothing that holds it.
             cubic: withheld.as_ref().and_then(|_| Cubic::over(&owned)),
             withheld,
             owned,
