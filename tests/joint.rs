@@ -318,7 +318,7 @@ fn a_step_ends_where_its_energy_is_least() {
     // The part of δρ that the surfaces are is not told: any split costs least with that which smoothness likes best.
     let best = |shift: &[f64; 6], rho_step: &Grid<f32>| {
         let mut surface = Grid::new(W, H, 0.0f32);
-        for _ in 0..30 {
+        for _ in 0..8 {
             for term in cubic.terms() {
                 let cost = |by: f32| {
                     let surface = Grid::from_fn(W, H, |x, y| surface[(x, y)] + by * term[(x, y)]);

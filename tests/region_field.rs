@@ -150,6 +150,31 @@ fn a_step_on_a_crease_costs_its_share_and_a_gentle_bend_costs_the_same() {
     assert!((ratio(8, 500.0) - 1.0).abs() < 1e-6);
 }
 
+/// Else what depth is carried on to would hold it along its curve, as a frame does a cloth.
+#[test]
+fn smoothing_lets_go_where_a_region_ends() {
+    let region = Grid::from_fn(W, H, |x, _| if x < 6 { 0.5 } else { 0.0 });
+    for diffusion in [Diffusion::Isotropic, Diffusion::Anisotropic] {
+        let within = FieldPrior {
+            within: Some(region.clone()),
+            ..prior(diffusion)
+        };
+        let share = |at: (usize, usize)| {
+            let mut spike = Grid::new(W, H, 0.0f32);
+            spike[at] = 1.0;
+            let bends = Bends::of(&spike);
+            let [a, b] = [&within, &prior(diffusion)].map(|p| whole(&p.edges(&bends), &bends));
+            a / b
+        };
+        assert!((share((3, 4)) - 1.0).abs() < 1e-6);
+        assert!((share((9, 4)) - 0.1).abs() < 1e-6);
+        // Of four edges three lie within on one side of the curve, and none on the other.
+        let (last, next) = (share((5, 4)), share((6, 4)));
+        assert!(last > 0.6 && last < 0.95, "{last}");
+        assert!((next - 0.1).abs() < 1e-6, "{next}");
+    }
+}
+
 #[test]
 fn a_plane_costs_nothing() {
     let plane = Grid::from_fn(W, H, |x, y| 1.3 - 0.04 * x as f32 + 0.07 * y as f32);
