@@ -1,8 +1,8 @@
 //! How a region's ρ bends: what its smoothness acts on.
 //!
 //! The steps of ρ to the right and down, less those that are expected: a line through ρ's own steps over some pixels
-//! around ([`local_line`]), and where the region has no pixels those of a plane that is given. Slanted and gently curved surfaces
-//! bend next to not at all, up to the region's curve; folds and steps do.
+//! around ([`local_line`]), and where the region has no pixels those of a plane that is given. Slanted and gently
+//! curved surfaces bend next to not at all, up to the region's curve; folds and steps do.
 
 use super::local_line::local_line;
 use crate::grid::Grid;

@@ -1,8 +1,8 @@
 //! The rim of a region: pixels that another region's brightness reaches.
 //!
-//! Smoothing, derivatives and interpolation read brightness from two or three pixels around, and at a region's curve some
-//! of it is another's, which moves otherwise. What is fitted there errs all along the curve to the same side: depth
-//! falls off or rises towards it, and T turns. So in the end motion and depth are not fitted to the rim, and
+//! Smoothing, derivatives and interpolation read brightness from two or three pixels around, and at a region's curve
+//! some of it is another's, which moves otherwise. What is fitted there errs all along the curve to the same side:
+//! depth falls off or rises towards it, and T turns. So in the end motion and depth are not fitted to the rim, and
 //! smoothness carries depth on to the curve.
 
 use crate::grid::Grid;

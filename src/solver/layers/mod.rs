@@ -180,7 +180,7 @@ impl Layers {
         Evidence {
             scale: self.here(),
             window,
-            // Fitted to its rim a surface would bend after what is there, having nothing that holds it.
+            // Not where the rim is fitted: nothing would keep a surface from bending after it.
             cubic: withheld.as_ref().and_then(|_| Cubic::over(&owned)),
             withheld,
             owned,
