@@ -32,7 +32,7 @@ impl Cubic {
     /// How many b there are at most.
     pub const TERMS: usize = 9;
 
-    /// The cubics over the region whose pixels have a `weight` over 0; none where they are fewer than [`FEWEST`].
+    /// The cubics over the region whose pixels have a `weight` over 0; none where they are fewer than 400.
     pub fn over(weight: &Grid<f32>) -> Option<Self> {
         let (width, height) = (weight.width(), weight.height());
         let (mut pixels, mut total) = (0, 0.0);

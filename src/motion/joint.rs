@@ -85,10 +85,10 @@ impl JointStep<'_> {
         let free = self.free_directions(motion);
         // A lane for δd as it is and one for each number in z.
         let (step, depth_step) = match 1 + free.len() + self.surfaces().len() {
-            1 => self.step::<1>(&free, motion),
-            ..=4 => self.step::<4>(&free, motion),
-            ..=8 => self.step::<8>(&free, motion),
-            ..=12 => self.step::<12>(&free, motion),
+            ..=1 => self.step::<1>(&free, motion),
+            2..=4 => self.step::<4>(&free, motion),
+            5..=8 => self.step::<8>(&free, motion),
+            9..=12 => self.step::<12>(&free, motion),
             _ => self.step::<16>(&free, motion),
         };
         let turn = DVec3::new(step[3], step[4], step[5]);
