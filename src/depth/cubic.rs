@@ -1,4 +1,4 @@
-//! Cubic surfaces of inverse depth: the part of a region's ρ that is free of charge.
+//! Cubic surfaces of inverse depth: the part of a region's ρ that smoothness does not act on.
 //!
 //! ```text
 //! ρ = ρ̄ + Σ_k q_k b_k + d,     Σ w b_k = 0,  Σ w b_j b_k = δ_jk Σ w,  Σ w d = Σ w d b_k = 0     (sums over the region)
@@ -6,9 +6,9 @@
 //!
 //! b_1 … b_9 span the polynomials in a pixel's place up to the third degree, less the constant, and have no unit; d is
 //! what departs from them, and smoothness acts on it alone. Two views hardly tell a deep relief that turns little from
-//! a shallow one that turns much, so that a charge on relief as such, however small, presses bodies flat and turns
-//! their T; nine numbers a region are too few to follow noise. Beyond [`REACH`] extents of the region its surface
-//! goes on level along that way.
+//! a shallow one that turns much, so that smoothness of all of ρ presses bodies flat and turns their T; nine numbers a
+//! region are too few to follow noise, and κ (`region_field.rs`) is enough to keep them from growing where nothing
+//! shows them. Beyond [`REACH`] extents of the region its surface goes on level along that way.
 
 use crate::grid::Grid;
 

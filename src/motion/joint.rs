@@ -121,8 +121,8 @@ impl JointStep<'_> {
         let z = reduced.solve(all);
         let wanted = std::array::from_fn(|r| free.iter().zip(&z).map(|(d, z)| d[r] * z).sum());
         let step = held(wanted, self.longest);
-        let held = step.iter().zip(&wanted).find(|(_, w)| **w != 0.0);
-        let share = held.map_or(1.0, |(s, w)| s / w);
+        let moved = step.iter().zip(&wanted).find(|(_, w)| **w != 0.0);
+        let share = moved.map_or(1.0, |(s, w)| s / w);
         let z = z.map(|z| (share * z) as f32);
         let mut depth_step = Grid::new(self.rows.width(), self.rows.height(), 0.0f32);
         for (i, (d, s)) in depth_step.data_mut().iter_mut().zip(&solution).enumerate() {

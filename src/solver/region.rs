@@ -114,7 +114,7 @@ impl Region {
         let weight = evidence.fitting_weights(&linearisation);
         let bends = self.bends(&linearisation, evidence, &weight);
         let edges = prior.edges(&bends);
-        let (data, force) = self.pull(&linearisation, &weight, evidence, prior);
+        let (data, force) = self.data_term(&linearisation, &weight, evidence, prior);
         let step = JointStep {
             rows: &linearisation.rows,
             weight: &weight,
@@ -143,7 +143,7 @@ impl Region {
         let weight = evidence.fitting_weights(&linearisation);
         let bends = self.bends(&linearisation, evidence, &weight);
         let edges = prior.edges(&bends);
-        let (data, force) = self.pull(&linearisation, &weight, evidence, prior);
+        let (data, force) = self.data_term(&linearisation, &weight, evidence, prior);
         let system = edges.system(weight.width(), weight.height(), data.into_vec());
         let smoothing = edges.pull(&bends);
         let right = force.data().iter().zip(smoothing.data());
@@ -155,7 +155,7 @@ impl Region {
 
     /// What a change of ρ costs besides smoothness, ω a² + κ, and how data and the prior of relief pull on ρ as it is,
     /// −(ω a r + κ (ρ − 1)).
-    fn pull(
+    fn data_term(
         &self,
         linearisation: &Linearisation,
         weight: &Grid<f32>,
