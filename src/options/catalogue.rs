@@ -192,6 +192,12 @@ static CATALOGUE: &[Descriptor] = &[
         "step 3",
     ),
     toggle(
+        "growth",
+        "Growth",
+        "Fit each region to what lies around it as well, and let it keep whatever then makes (7) smaller: it wins back what another has bent its depth after. Coarse to fine only.",
+        "step 3",
+    ),
+    toggle(
         "edges",
         "Edges of brightness",
         "Let outlines cost less, and the background's depth step, where brightness has an edge: what motion leaves open is decided there. Coarse to fine only.",

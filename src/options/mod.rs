@@ -119,6 +119,8 @@ pub struct Options {
     pub islands: bool,
     /// Whether curves are taken to the least partition before (17) moves them.
     pub partition: bool,
+    /// Whether regions are tried with what lies around them.
+    pub growth: bool,
     /// Whether outlines cost less, and the background's depth may step, on edges of brightness.
     pub edges: bool,
     /// Whether each region takes the smoothness that best foretells pixels left out.
@@ -154,6 +156,7 @@ impl Options {
                 occlusion: true,
                 islands: true,
                 partition: true,
+                growth: true,
                 edges: true,
                 cross_validation: true,
                 max_passes: 40,
@@ -182,6 +185,7 @@ impl Options {
                 occlusion: false,
                 islands: false,
                 partition: false,
+                growth: false,
                 edges: false,
                 cross_validation: false,
                 max_passes: 150,

@@ -88,6 +88,20 @@ pub(super) fn excuse_hidden(
     }
 }
 
+/// Pixels that are hidden, or out of sight, where their owner says that they go.
+pub(super) fn hidden(lines: &[Linearisation], labels: &Grid<u8>, cover: &Cover) -> Grid<bool> {
+    let mut hidden = labels.map(|_| false);
+    for (k, line) in lines.iter().enumerate() {
+        let target = targets(line, labels.width(), labels.height());
+        for (i, &to) in target.data().iter().enumerate() {
+            if usize::from(labels.data()[i]) == k {
+                hidden.data_mut()[i] = to[0].is_nan() || cover.hides(k, to);
+            }
+        }
+    }
+    hidden
+}
+
 /// Of two curves that move alike, the nearer takes a pixel.
 pub(super) fn charge_distance(xi: &mut [Grid<f32>], phi: &[Grid<f32>], measure: &Measure) {
     let Some(first) = phi.first() else {

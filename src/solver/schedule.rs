@@ -25,6 +25,9 @@ const DONE: [usize; 2] = [CHOOSING_AGAIN + 2, CHOOSING_AGAIN + 12];
 /// The passes on the finest scale in which all curves move at once to the least partition: before (17) takes
 /// over, and once kinds of motion are final.
 const REPARTITIONING: [usize; 2] = [THRESHOLD_PASSES, CHOOSING_AGAIN + 1];
+/// The passes on the finest scale in which regions are tried with what lies around them: once curves have settled,
+/// and once kinds of motion are final.
+const GROWING: [usize; 2] = [THRESHOLD_PASSES + 1, CHOOSING_AGAIN + 1];
 /// The pass on the finest scale from which hidden pixels are excused: earlier, regions would collapse.
 const EXCUSING: usize = 2;
 /// The pass of a scale after which the change of light is measured.
@@ -146,6 +149,11 @@ impl Schedule {
     /// Keeps them from finding out again.
     pub fn has_learnt(&mut self) {
         self.resting = Some(true);
+    }
+
+    /// Whether regions are tried with what lies around them.
+    pub fn grows(&self) -> bool {
+        self.level == 0 && self.deep().is_some_and(|deep| GROWING.contains(&deep))
     }
 
     /// Whether a curve may still leap anywhere.

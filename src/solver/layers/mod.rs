@@ -6,10 +6,11 @@
 //! Each hypothesis is judged by its own depth, so that the present owner of a pixel is not favoured. A
 //! region is computed in a window around it, beyond which its depth goes on as a plane.
 //!
-//! Here are the layers and what they are computed from; `start.rs` says where they begin, `steps.rs` improves
-//! them, `balance.rs` weighs them.
+//! Here are the layers and what they are computed from; `start.rs` says where they begin, `steps.rs` improves them,
+//! `growth.rs` tries them with more, `balance.rs` weighs them.
 
 mod balance;
+mod growth;
 mod start;
 mod steps;
 
@@ -172,6 +173,17 @@ impl Layers {
                 0.0
             }
         });
+        self.evidence_of(k, window, owned, options)
+    }
+
+    /// The same as if region k owned the pixels `owned` of its window.
+    fn evidence_of(
+        &self,
+        k: usize,
+        window: Window,
+        owned: Grid<f32>,
+        options: &Options,
+    ) -> Evidence<'_> {
         let withheld = if self.schedule.spares_rims() {
             rim(&owned)
         } else {

@@ -18,8 +18,8 @@ use crate::warp::pyramid;
 
 /// Joint steps in a pass.
 const JOINT_STEPS: usize = 2;
-/// Steps of depth alone in a pass in which motions are held: as many as depth has had before.
-const RESTING_STEPS: usize = JOINT_STEPS + 1;
+/// Steps of depth alone where motions are held: as many as depth has in a pass in which they are not.
+pub(super) const DEPTH_STEPS: usize = JOINT_STEPS + 1;
 /// Pixels by which a region grows when all curves move to the least partition.
 const REACH: f32 = 1.0;
 
@@ -70,7 +70,7 @@ impl Approach for Layers {
         if self.schedule.deep().is_some() {
             let learns = options.mu.is_none() && self.schedule.learns();
             let steps = if self.schedule.rests() {
-                RESTING_STEPS
+                DEPTH_STEPS
             } else {
                 1
             };
@@ -95,10 +95,14 @@ impl Approach for Layers {
     fn move_curves(&mut self, options: &Options) {
         self.look_for_bodies(options);
         self.go_to_bodies();
-        let lines = self.linearisations();
+        let mut lines = self.linearisations();
         self.measure_noise(&lines, options);
         if self.phi.is_empty() || self.schedule.holds_curves() {
             return;
+        }
+        if options.growth && self.schedule.grows() {
+            self.grow(options);
+            lines = self.linearisations();
         }
         let xi = self.residuals(&lines, options);
         if !(options.occlusion && self.schedule.excuses()) {
