@@ -9,7 +9,7 @@
 //! min (7) with the region as tried  <  min (7) with the region as it was − c σ²        c = CLEARLY
 //! ```
 //!
-//! each over all partitions within that reach (`relaxation.rs`), the smoothness of depth, hundreds of times less,
+//! each over all outlines within that reach (`relaxation.rs`), the smoothness of depth, hundreds of times less,
 //! left out; the region then takes what it gains. Fitted anew to a shadow, or to nothing in particular, it gains a
 //! little, and by c it would not. What its owner says is hidden in the second frame suits anyone by chance:
 //! no region is fitted to it or gains it.
@@ -29,9 +29,10 @@ const REACH: f32 = 8.0;
 /// c: some fifty variances are gained where nothing is missing, hundreds where a piece of the body is.
 const CLEARLY: f64 = 100.0;
 
-/// The least partition of a window, and what it costs.
+/// A partition of a window into a region and the others, and what it costs.
 struct Partition {
-    labels: Grid<u8>,
+    /// Whether a pixel is the region's.
+    inside: Grid<bool>,
     /// Data and outlines of (7), grey levels².
     energy: f64,
 }
@@ -55,15 +56,15 @@ impl Layers {
             |cover| rivalry::hidden(&lines, &self.labels, cover),
         );
         let grown = self.grown(k, &hidden, options);
-        let before = self.least(&lines, &window, options);
+        let before = self.least(k, &lines, &window, options);
         lines[k] = grown.cropped(&window).linearise(self.here(), window);
-        let after = self.least(&lines, &window, options);
+        let after = self.least(k, &lines, &window, options);
         if after.energy >= before.energy - CLEARLY * self.weights.sigma.powi(2) {
             return;
         }
-        for (i, &label) in after.labels.data().iter().enumerate() {
+        for (i, &inside) in after.inside.data().iter().enumerate() {
             let at = window.place(i);
-            if usize::from(label) == k && usize::from(self.labels[at]) != k && !hidden[at] {
+            if inside && usize::from(self.labels[at]) != k && !hidden[at] {
                 for (j, phi) in self.phi.iter_mut().enumerate() {
                     phi[at] = if j + 1 == k { 0.5 } else { phi[at].min(-0.5) };
                 }
@@ -95,19 +96,35 @@ impl Layers {
         region
     }
 
-    /// The least partition of `window` within [`REACH`] of the curves.
-    fn least(&self, lines: &[Linearisation], window: &Window, options: &Options) -> Partition {
-        let crop = |all: &[Grid<f32>]| -> Vec<_> { all.iter().map(|g| window.crop(g)).collect() };
-        let xi = crop(&self.competition(self.residuals(lines, options), lines, options));
+    /// The least partition of `window` into region k and whoever else owns its pixels, within [`REACH`] of k's curve.
+    fn least(
+        &self,
+        k: usize,
+        lines: &[Linearisation],
+        window: &Window,
+        options: &Options,
+    ) -> Partition {
+        let xi = self.competition(self.residuals(lines, options), lines, options);
+        let xi: Vec<_> = xi.iter().map(|xi| window.crop(xi)).collect();
+        let labels = window.crop(&self.labels);
+        let others = Grid::from_fn(window.width, window.height, |x, y| {
+            let owner = usize::from(labels[(x, y)]);
+            if owner != k {
+                return xi[owner][(x, y)];
+            }
+            let others = xi.iter().enumerate().filter(|(j, _)| *j != k);
+            others.fold(f32::INFINITY, |least, (_, xi)| least.min(xi[(x, y)]))
+        });
         let outline = window.crop(&self.outline(options));
-        let phi = curves::least_partition(&crop(&self.phi), &xi, &outline, REACH);
+        let now = [window.crop(&self.phi[k - 1])];
+        let xi = [others, xi[k].clone()];
+        let phi = curves::least_partition(&now, &xi, &outline, REACH);
         let labels = curves::labels(&phi, window.width, window.height);
         let owners = labels.data().iter().enumerate();
-        let data = owners.map(|(i, &j)| f64::from(xi[usize::from(j)].data()[i]));
-        let length = phi.iter().map(|phi| curves::cost(phi, &outline));
+        let data = owners.map(|(i, &own)| f64::from(xi[usize::from(own)].data()[i]));
         Partition {
-            energy: data.sum::<f64>() + length.sum::<f64>(),
-            labels,
+            energy: data.sum::<f64>() + curves::cost(&phi[0], &outline),
+            inside: labels.map(|own| own == 1),
         }
     }
 }
