@@ -11,8 +11,8 @@
 //!
 //! each over all outlines within that reach (`relaxation.rs`), the smoothness of depth, hundreds of times less,
 //! left out; the region then takes what it gains. Fitted anew to a shadow, or to nothing in particular, it gains a
-//! little, and by c it would not. What its owner says is hidden in the second frame suits anyone by chance:
-//! no region is fitted to it or gains it.
+//! little as well, hence c. What its owner says is hidden in the second frame suits anyone by chance: no region
+//! is fitted to it or gains it.
 
 use super::Layers;
 use super::steps::DEPTH_STEPS;
@@ -26,7 +26,7 @@ use crate::window::Window;
 
 /// Pixels beyond its curve that a region is tried with.
 const REACH: f32 = 8.0;
-/// c: some fifty variances are gained where nothing is missing, hundreds where a piece of the body is.
+/// c: up to fifty variances are gained where nothing is missing, hundreds where a piece of the body is.
 const CLEARLY: f64 = 100.0;
 
 /// A partition of a window into a region and the others, and what it costs.
