@@ -194,7 +194,7 @@ static CATALOGUE: &[Descriptor] = &[
     toggle(
         "growth",
         "Growth",
-        "Fit each region to what lies around it as well, and let it keep whatever then makes (7) smaller: it wins back what another has bent its depth after. Coarse to fine only.",
+        "Fit each region to what lies around it as well, and let it keep whatever then makes (7) clearly smaller: it wins back what another has bent its depth after. Coarse to fine only.",
         "step 3",
     ),
     toggle(
