@@ -1,11 +1,15 @@
 //! Motion and depth of one region together: a Gauss–Newton step in which depth is eliminated exactly.
 //!
-//! With r ≈ r + a δρ + b·δm at each pixel (warp.rs; m = (T, ω)) and ρ a cubic surface and a smooth departure from it
-//! (`depth/cubic.rs`), δρ = δd + Σ_k δq_k b_k, the step minimises
+//! With r ≈ r + a δρ + b·δm at each pixel (warp.rs; m = (T, ω)) and ρ a polynomial surface and a smooth departure from it
+//! (`depth/polynomials.rs`), δρ = δd + Σ_k δq_k b_k, the step minimises
 //!
 //! ```text
 //! Σ ω_i (r + a δρ + b·δm)² + κ Σ (ρ + δρ − 1)² + Σ_edges c_ij ((d+δd)_i − (d+δd)_j − s_ij)² + prior(m)
 //! ```
+//!
+//! Where depth is smooth about its own slope instead (`depth/bends.rs`), d is all of ρ, and quadratics are taken with it
+//! because they cost nothing there either, once s has followed: left to δd they would be held as they were, and relief
+//! and T come a little deeper in every step.
 //!
 //! Alternating between depth and motion crawls along the valleys in which a small motion and a slant or a bend of
 //! the depth undo each other. Here the best departure for *every* motion and surface is known to first order,
@@ -19,7 +23,7 @@ use glam::{DQuat, DVec3};
 use super::Kind;
 use super::cholesky::solve_positive;
 use crate::camera::RigidMotion;
-use crate::depth::{Cubic, Elliptic};
+use crate::depth::{Elliptic, Polynomials};
 use crate::grid::Grid;
 use crate::warp::{RESIDUAL, Row};
 
@@ -37,8 +41,8 @@ pub struct JointStep<'a> {
     pub system: &'a Elliptic,
     /// −L(d, s): how the smoothing pulls on d as it is.
     pub pull: &'a Grid<f32>,
-    /// The surfaces that smoothness does not act on.
-    pub surface: Option<&'a Cubic>,
+    /// The surfaces that smoothness does not hold.
+    pub surface: Option<&'a Polynomials>,
     /// Precision of each component of ω known beforehand, so that the prior is this times |ω|².
     pub rotation_prior: f64,
     /// What may move.
@@ -71,7 +75,7 @@ const TOLERANCE: f64 = 1e-3;
 /// Most iterations of conjugate gradients.
 const MOST_ITERATIONS: usize = 12;
 /// Numbers in z at most: T's length is not observable.
-const MOST_FREE: usize = 5 + Cubic::TERMS;
+const MOST_FREE: usize = 5 + Polynomials::TERMS;
 
 /// z that is left once δd is eliminated: its normal equations.
 struct Reduced {
@@ -180,7 +184,7 @@ impl JointStep<'_> {
 
     fn surfaces(&self) -> &[Grid<f32>] {
         match self.surface {
-            Some(cubic) if self.kind.translates() => cubic.terms(),
+            Some(surface) if self.kind.translates() => surface.terms(),
             _ => &[],
         }
     }

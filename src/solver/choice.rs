@@ -4,22 +4,24 @@
 //! Each kind is fitted, and judged by
 //!
 //! ```text
-//! C = ( Σ ρ(r²/v) + (smoothness + relief)/σ² + 2 p ) / n0 + d ln(n/n0)
+//! C = ( Σ ρ(r²/v) + (smoothness + relief)/σ² + 2 p ) / n0 + d ln(n/n0) + b
 //! ```
 //!
 //! ρ the robust χ², d the kind's parameters (still 0, rotation 3, translation 2, full 5; T's length is not
 //! observable), n the region's pixels, [`CORRELATED`] = n0 the pixels that one independent sample of noise
 //! spreads over, and p = Σ h/(h + Σc) the parameters' worth of freedom that depth takes (h its data weight,
 //! c its smoothing at a pixel), which kinds that translate pay for: with depth to adjust, noise alone can
-//! be explained. The d ln n is Schwarz's (1978), the 2p Akaike's. A simpler kind is taken when its C is
+//! be explained. The d ln n is Schwarz's (1978), the 2p Akaike's. b = [`HOLLOW`] for a body whose surface is
+//! hollow (`depth/hollow.rs`), else 0: bodies are seen from outside. A simpler kind is taken when its C is
 //! within `max( Σ (δ‖∇I‖)²/v, ν n ) / 2 n0` of the least: what image motion off by δ = [`INTERPOLATION`]
 //! everywhere costs, or a variance off by the share ν = [`UNSURE`], since interpolated frames do not tell motions
 //! apart that differ by less, nor is a region without shadows and strangers, however many pixels there are.
 //!
 //! A narrow view hardly tells a deep relief that turns little from a shallow one that turns much, nor from
-//! its mirror image. Full motion is therefore fitted from several depths of relief, of which the best counts.
+//! its mirror image, whose surface bends the other way. Full motion is therefore fitted from several depths of relief,
+//! of which the best counts.
 
-use crate::depth::FieldPrior;
+use crate::depth::{FieldPrior, hollow};
 use crate::motion::Kind;
 
 use super::evidence::Evidence;
@@ -31,6 +33,9 @@ const CORRELATED: f64 = 6.0;
 const INTERPOLATION: f64 = 0.03;
 /// ν, a share of the noise's variance.
 const UNSURE: f64 = 0.07;
+/// b: in noise a body's mirror image has been seen to explain it better by 20, where folds are smoothed over; with little
+/// noise the image costs hundreds.
+const HOLLOW: f64 = 30.0;
 /// Joint steps that each kind is fitted with, those that each depth of relief is, whose fit has farther to go,
 /// and those with which the best of each kind goes on.
 const STEPS: [usize; 3] = [3, 12, 5];
@@ -158,6 +163,13 @@ fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
     } else {
         0.0
     };
+    let shown = evidence.body && region.kind.translates();
+    let unlikely = if shown && hollow(&region.rho, &evidence.owned) {
+        HOLLOW
+    } else {
+        0.0
+    };
     (misfit + smoothness + 2.0 * freedom) / CORRELATED
         + parameters * (pixels / CORRELATED).max(2.0).ln()
+        + unlikely
 }

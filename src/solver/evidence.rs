@@ -8,7 +8,7 @@
 //! A shadow that passes over the background changes many pixels by less than noise changes one. There the mean
 //! residual over some pixels around counts as well, in the same way and in units of its own spread.
 
-use crate::depth::Cubic;
+use crate::depth::Polynomials;
 use crate::frames::blur;
 use crate::grid::Grid;
 use crate::warp::{Linearisation, RESIDUAL, Scale};
@@ -53,14 +53,23 @@ pub(super) struct Evidence<'a> {
     pub shadowed: bool,
     /// Pixels that motion and depth are not fitted to, though the region owns them.
     pub withheld: Option<Grid<bool>>,
-    /// The surfaces that are free of charge; none where depth is smooth about its own slope.
-    pub cubic: Option<Cubic>,
+    /// The surfaces that a joint step takes at once.
+    pub surface: Option<Polynomials>,
+    /// Whether smoothness acts only on what departs from them, rather than on how depth bends about its own slope.
+    pub departing: bool,
+    /// Whether the region is a body, which is seen from outside.
+    pub body: bool,
 }
 
 impl Evidence<'_> {
     /// The constraint around what `region` is at present.
     pub fn linearise(&self, region: &Region) -> Linearisation {
         region.linearise(self.scale, self.window)
+    }
+
+    /// The surfaces that are free of charge; none where depth is smooth about its own slope.
+    pub fn uncharged(&self) -> Option<&Polynomials> {
+        self.surface.as_ref().filter(|_| self.departing)
     }
 
     /// The same without the pixels (x, y) of the window for which `withheld` says so, either.

@@ -122,7 +122,7 @@ impl Region {
             data: &data,
             force: &force,
             pull: &edges.pull(&bends),
-            surface: evidence.cubic.as_ref(),
+            surface: evidence.surface.as_ref(),
             rotation_prior: evidence.rotation_prior(),
             kind: self.kind,
             longest: evidence.longest(),
@@ -207,8 +207,10 @@ impl Region {
         weight: &Grid<f32>,
     ) -> Bends {
         let owned = &evidence.owned;
-        match &evidence.cubic {
-            Some(cubic) => Bends::about_slope(&cubic.departure(&self.rho), owned, [0.0; 2], SLOPE),
+        match evidence.uncharged() {
+            Some(surface) => {
+                Bends::about_slope(&surface.departure(&self.rho), owned, [0.0; 2], SLOPE)
+            }
             None => {
                 let plane = Plane::fit(&self.rho, &certainty(linearisation, weight));
                 Bends::about_slope(&self.rho, owned, plane.slope(), SLOPE)

@@ -36,7 +36,7 @@ const RELIGHTING: usize = 2;
 const SEARCHING: usize = 2;
 /// Depths of relief that a full motion is tried with; only the first two, its mirror image and a deeper one,
 /// where depth has been found on a coarser scale: what is coarse looks flat.
-const RELIEFS: [f64; 4] = [-1.0, 2.0, 0.4, -2.0];
+const RELIEFS: [f64; 5] = [-1.0, 2.0, 0.4, -2.0, -0.4];
 /// Standard deviation of threshold dynamics' window in pixels: at first, with depth, and what it falls by in
 /// a pass in between.
 const WINDOW: [f64; 3] = [2.5, 1.8, 0.25];

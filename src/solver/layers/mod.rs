@@ -25,7 +25,7 @@ use super::schedule::Schedule;
 use super::weights::Weights;
 use crate::camera::Camera;
 use crate::curves;
-use crate::depth::{self, Cubic, FieldPrior};
+use crate::depth::{self, FieldPrior, Polynomials};
 use crate::frames::{FramePair, Lighting, doubled, halved};
 use crate::grid::Grid;
 use crate::occlusion::Cover;
@@ -135,7 +135,7 @@ impl Layers {
             strength: self.weights.mu * stiffness,
             epsilon: options.epsilon * f64::from(1u32 << self.schedule.level),
             creases: self.creases(k, evidence, options),
-            within: evidence.cubic.as_ref().map(|_| evidence.owned.clone()),
+            within: evidence.uncharged().map(|_| evidence.owned.clone()),
             relief: evidence.relief_prior(),
         }
     }
@@ -189,11 +189,14 @@ impl Layers {
         } else {
             None
         };
+        // Not where the rim is fitted: nothing would keep a surface from bending after it.
+        let departing = withheld.is_some();
         Evidence {
             scale: self.here(),
             window,
-            // Not where the rim is fitted: nothing would keep a surface from bending after it.
-            cubic: withheld.as_ref().and_then(|_| Cubic::over(&owned)),
+            surface: Polynomials::over(&owned, if departing { 3 } else { 2 }),
+            departing,
+            body: k > 0,
             withheld,
             owned,
             sigma: self.weights.sigma,

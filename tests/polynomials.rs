@@ -4,7 +4,7 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::Grid;
-use relievo::depth::Cubic;
+use relievo::depth::Polynomials;
 
 const W: usize = 60;
 const H: usize = 48;
@@ -34,9 +34,9 @@ fn product(weight: &Grid<f32>, u: &Grid<f32>, v: &Grid<f32>) -> f64 {
 #[test]
 fn the_terms_are_apart_from_each_other_and_from_a_level_surface() {
     let region = disc();
-    let cubic = Cubic::over(&region).unwrap();
+    let cubic = Polynomials::over(&region, 3).unwrap();
     let level = Grid::new(W, H, 1.0);
-    assert_eq!(cubic.terms().len(), Cubic::TERMS);
+    assert_eq!(cubic.terms().len(), Polynomials::TERMS);
     for (j, a) in cubic.terms().iter().enumerate() {
         assert!(product(&region, a, &level).abs() < 1e-4);
         for (k, b) in cubic.terms().iter().enumerate() {
@@ -50,7 +50,7 @@ fn the_terms_are_apart_from_each_other_and_from_a_level_surface() {
 #[test]
 fn nothing_departs_from_a_cubic_but_its_mean_and_from_what_is_steeper_something_does() {
     let region = disc();
-    let cubic = Cubic::over(&region).unwrap();
+    let cubic = Polynomials::over(&region, 3).unwrap();
     let field = |f: &dyn Fn(f32, f32) -> f32| {
         Grid::from_fn(W, H, |x, y| f(x as f32 / 20.0 - 1.3, y as f32 / 20.0 - 1.0))
     };
@@ -80,7 +80,7 @@ fn nothing_departs_from_a_cubic_but_its_mean_and_from_what_is_steeper_something_
 #[test]
 fn what_lies_beyond_the_region_does_not_count() {
     let region = disc();
-    let cubic = Cubic::over(&region).unwrap();
+    let cubic = Polynomials::over(&region, 3).unwrap();
     let inside = |x, y| region[(x, y)] > 0.0;
     let rho = Grid::from_fn(W, H, |x, y| 1.0 + 0.1 * noise(x, y));
     let spoilt = Grid::from_fn(W, H, |x, y| rho[(x, y)] + f32::from(!inside(x, y)));
@@ -97,7 +97,7 @@ fn what_lies_beyond_the_region_does_not_count() {
 #[test]
 fn a_surface_does_not_run_away_from_its_region() {
     let corner = Grid::from_fn(400, 300, |x, y| f32::from(x < 24 && y < 20));
-    let cubic = Cubic::over(&corner).unwrap();
+    let cubic = Polynomials::over(&corner, 3).unwrap();
     for term in cubic.terms() {
         let most = |inside: bool| {
             let each = term.data().iter().zip(corner.data());
@@ -114,13 +114,13 @@ fn a_surface_does_not_run_away_from_its_region() {
 
 #[test]
 fn a_region_tells_as_many_numbers_as_it_can() {
-    assert!(Cubic::over(&Grid::new(W, H, 0.0)).is_none());
+    assert!(Polynomials::over(&Grid::new(W, H, 0.0), 3).is_none());
     let few = Grid::from_fn(W, H, |x, y| f32::from(x < 19 && y < 21));
-    assert!(Cubic::over(&few).is_none());
+    assert!(Polynomials::over(&few, 3).is_none());
     // Along a line x, x² and x³ are all there is; on two lines side by side y, xy and x²y besides.
     for (lines, terms) in [(1, 3), (2, 6)] {
         let line = Grid::from_fn(500, 5, |_, y| f32::from(y < lines as usize));
-        let cubic = Cubic::over(&line).unwrap();
+        let cubic = Polynomials::over(&line, 3).unwrap();
         assert_eq!(cubic.terms().len(), terms);
         for term in cubic.terms() {
             assert!(term.data().iter().all(|v| v.is_finite()));

@@ -1,14 +1,16 @@
-//! Cubic surfaces of inverse depth: the part of a region's ρ that smoothness does not act on.
+//! Polynomial surfaces of inverse depth: the part of a region's ρ that smoothness does not act on.
 //!
 //! ```text
 //! ρ = ρ̄ + Σ_k q_k b_k + d,     Σ w b_k = 0,  Σ w b_j b_k = δ_jk Σ w,  Σ w d = Σ w d b_k = 0     (sums over the region)
 //! ```
 //!
-//! b_1 … b_9 span the polynomials in a pixel's place up to the third degree, less the constant, and have no unit; d is
-//! what departs from them, and smoothness acts on it alone. Two views hardly tell a deep relief that turns little from
-//! a shallow one that turns much, so that smoothness of all of ρ presses bodies flat and turns their T; nine numbers a
-//! region are too few to follow noise, and κ (`region_field.rs`) is enough to keep them from growing where nothing
-//! shows them. Beyond [`REACH`] extents of the region its surface goes on level along that way.
+//! b_1 … b_n span the polynomials in a pixel's place up to some degree, less the constant, and have no unit; d is
+//! what departs from them. Two views hardly tell a deep relief that turns little from a shallow one that turns much.
+//! Smoothness of all of ρ would therefore press bodies flat and turn their T; where it acts on d alone, the nine cubics
+//! of a region are too few to follow noise, and κ (`region_field.rs`) is enough to keep them from growing where nothing
+//! shows them. Quadratics cost nothing about their own slope (`bends.rs`) either, but only once what is expected has
+//! followed, step by step: taken as they are, they let relief change with T and ω at once. Beyond [`REACH`] extents
+//! of the region its surface goes on level along that way.
 
 use crate::grid::Grid;
 
@@ -19,21 +21,22 @@ const REACH: f64 = 2.5;
 /// The square of what is new in a polynomial, as a share of its own: with less it tells the region nothing new.
 const NEW: f64 = 1e-6;
 
-/// The cubics over a region.
+/// The polynomials over a region.
 #[derive(Clone, Debug)]
-pub struct Cubic {
+pub struct Polynomials {
     weight: Grid<f32>,
     /// Σ w.
     total: f64,
     terms: Vec<Grid<f32>>,
 }
 
-impl Cubic {
-    /// How many b there are at most.
+impl Polynomials {
+    /// How many b there are at most: cubics.
     pub const TERMS: usize = 9;
 
-    /// The cubics over the region whose pixels have a `weight` over 0; none where they are fewer than 400.
-    pub fn over(weight: &Grid<f32>) -> Option<Self> {
+    /// The polynomials of `degree`, 1 to 3, and below over the region whose pixels have a `weight` over 0; none where they
+    /// are fewer than 400.
+    pub fn over(weight: &Grid<f32>, degree: i32) -> Option<Self> {
         let (width, height) = (weight.width(), weight.height());
         let (mut pixels, mut total) = (0, 0.0);
         let (mut mean, mut square) = ([0.0; 2], [0.0; 2]);
@@ -58,19 +61,19 @@ impl Cubic {
         };
         let columns: Vec<f64> = (0..width).map(|x| along(0, x)).collect();
         let rows: Vec<f64> = (0..height).map(|y| along(1, y)).collect();
-        let mut cubic = Self {
+        let mut all = Self {
             weight: weight.clone(),
             total,
             terms: Vec::with_capacity(Self::TERMS),
         };
-        for degree in 1..=3 {
+        for degree in 1..=degree.min(3) {
             for of_y in 0..=degree {
-                cubic.add(Grid::from_fn(width, height, |x, y| {
+                all.add(Grid::from_fn(width, height, |x, y| {
                     (columns[x].powi(degree - of_y) * rows[y].powi(of_y)) as f32
                 }));
             }
         }
-        Some(cubic)
+        Some(all)
     }
 
     /// Adds what is new in a polynomial (Gram and Schmidt).
