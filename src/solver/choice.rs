@@ -30,7 +30,7 @@ use super::region::{Region, certainty};
 /// n0, in pixels.
 const CORRELATED: f64 = 6.0;
 /// δ, in pixels.
-const INTERPOLATION: f64 = 0.03;
+const INTERPOLATION: f64 = 0.02;
 /// ν, a share of the noise's variance.
 const UNSURE: f64 = 0.07;
 /// b: in noise a body's mirror image has been seen to explain it better by 20, where folds are smoothed over; with little
