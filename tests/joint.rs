@@ -80,29 +80,13 @@ fn about_slope(rho: &Grid<f32>) -> Bends {
     Bends::about_slope(rho, &rho.map(|_| 1.0), [0.0; 2], 8.0)
 }
 
-/// A joint step from `motion` and `rho`, of `kind`, smoothness acting on what departs from `surface`.
-fn step(
-    scale: &Scale,
-    motion: &RigidMotion,
-    rho: &Grid<f32>,
-    kind: Kind,
-    prior: &FieldPrior,
-    surface: Option<&Polynomials>,
-) -> Joint {
-    let smoothed = surface.map_or_else(|| rho.clone(), |cubic| cubic.departure(rho));
-    step_against(
-        scale,
-        motion,
-        rho,
-        kind,
-        prior,
-        surface,
-        &Bends::of(&smoothed),
-    )
+/// How what departs from `surface` steps from pixel to pixel.
+fn departing(rho: &Grid<f32>, surface: Option<&Polynomials>) -> Bends {
+    Bends::of(&surface.map_or_else(|| rho.clone(), |cubic| cubic.departure(rho)))
 }
 
-/// The same, smoothness acting on `bends`.
-fn step_against(
+/// A joint step from `motion` and `rho`, of `kind`, smoothness acting on `bends`.
+fn step(
     scale: &Scale,
     motion: &RigidMotion,
     rho: &Grid<f32>,
@@ -132,7 +116,7 @@ fn step_against(
     .solve(motion)
 }
 
-/// `steps` joint steps of `kind` from `motion` and a level surface.
+/// `steps` joint steps of `kind` from `motion` and a level surface, smoothness acting on the `bends` of ρ as it is.
 fn refine(
     scale: &Scale,
     mut motion: RigidMotion,
@@ -140,10 +124,11 @@ fn refine(
     steps: usize,
     prior: &FieldPrior,
     surface: Option<&Polynomials>,
+    bends: impl Fn(&Grid<f32>) -> Bends,
 ) -> (RigidMotion, Grid<f32>) {
     let mut rho = Grid::new(W, H, 1.0f32);
     for _ in 0..steps {
-        let step = step(scale, &motion, &rho, kind, prior, surface);
+        let step = step(scale, &motion, &rho, kind, prior, surface, &bends(&rho));
         motion = step.motion;
         for (r, d) in rho.data_mut().iter_mut().zip(step.depth_step.data()) {
             *r += d;
@@ -158,7 +143,7 @@ fn joint_steps_lead_from_a_rough_motion_to_the_true_one() {
     let scale = filmed(&truth, &relief());
     let rough = motion([0.048, 0.032, 0.012], [0.004, -0.004, 0.005]);
     let before = degrees(rough.translation, truth.translation);
-    let (found, rho) = refine(&scale, rough, Kind::Full, 12, &prior(0.01), None);
+    let (found, rho) = refine(&scale, rough, Kind::Full, 12, &prior(0.01), None, Bends::of);
     let off = degrees(found.translation, truth.translation);
     assert!(before > 10.0 && off < 2.0, "T is off by {off}°");
     let turn = (found.rotation - truth.rotation).length();
@@ -181,7 +166,8 @@ fn a_saddle_keeps_its_relief_where_cubic_surfaces_are_free() {
     let found = |surface: Option<&Polynomials>| {
         let rough = motion([0.048, 0.032, 0.012], [0.004, -0.004, 0.005]);
         let stiff = prior(1000.0);
-        let (motion, rho) = refine(&scale, rough, Kind::Full, 15, &stiff, surface);
+        let bends = |rho: &Grid<f32>| departing(rho, surface);
+        let (motion, rho) = refine(&scale, rough, Kind::Full, 15, &stiff, surface, bends);
         let mean = |g: &Grid<f32>| g.data().iter().sum::<f32>() / g.len() as f32;
         let (of_found, of_truth) = (mean(&rho), mean(&saddle));
         let pairs = rho.data().iter().zip(saddle.data());
@@ -213,21 +199,13 @@ fn relief_comes_with_motion_in_a_few_steps_where_a_step_takes_quadratics_at_once
     let truth = motion([0.05, 0.02, 0.02], [0.01, -0.012, 0.015]);
     let scale = filmed(&truth, &saddle);
     let quadratic = Polynomials::over(&Grid::new(W, H, 1.0), 2).unwrap();
-    let off = |surface: Option<&Polynomials>, steps: usize| {
-        let mut motion = motion([0.048, 0.032, 0.012], [0.004, -0.004, 0.005]);
-        let mut rho = Grid::new(W, H, 1.0f32);
-        for _ in 0..steps {
-            let bends = about_slope(&rho);
-            let stiff = prior(1000.0);
-            let step = step_against(&scale, &motion, &rho, Kind::Full, &stiff, surface, &bends);
-            motion = step.motion;
-            for (r, d) in rho.data_mut().iter_mut().zip(step.depth_step.data()) {
-                *r += d;
-            }
-        }
-        degrees(motion.translation, truth.translation)
+    let off = |surface: Option<&Polynomials>| {
+        let rough = motion([0.048, 0.032, 0.012], [0.004, -0.004, 0.005]);
+        let stiff = prior(1000.0);
+        let (found, _) = refine(&scale, rough, Kind::Full, 4, &stiff, surface, about_slope);
+        degrees(found.translation, truth.translation)
     };
-    let (at_once, behind) = (off(Some(&quadratic), 4), off(None, 4));
+    let (at_once, behind) = (off(Some(&quadratic)), off(None));
     assert!(at_once < 1.0, "T is off by {at_once}° after four steps");
     assert!(behind > 3.0 * at_once, "{behind}° without, {at_once}° with");
 }
@@ -257,7 +235,15 @@ fn a_step_ends_where_its_energy_is_least() {
         let smoothed = Grid::from_fn(W, H, |x, y| departure[(x, y)] + departs[(x, y)]);
         data + edges.energy(&Bends::of(&smoothed), &whole)
     };
-    let taken = step(&scale, &from, &rho, Kind::Translation, &prior, Some(&cubic));
+    let taken = step(
+        &scale,
+        &from,
+        &rho,
+        Kind::Translation,
+        &prior,
+        Some(&cubic),
+        &departing(&rho, Some(&cubic)),
+    );
     let moved = taken.motion.translation - from.translation;
     let shift = [moved.x, moved.y, moved.z, 0.0, 0.0, 0.0];
     // The part of δρ that the surfaces are is not told: any split costs least with that which smoothness likes best.
@@ -325,15 +311,32 @@ fn a_kind_of_motion_forbids_what_it_says() {
         2,
         &prior(0.01),
         None,
+        Bends::of,
     );
     assert_eq!(still, RigidMotion::default());
-    let (turned, _) = refine(&scale, turn, Kind::Rotation, 2, &prior(0.01), None);
+    let (turned, _) = refine(
+        &scale,
+        turn,
+        Kind::Rotation,
+        2,
+        &prior(0.01),
+        None,
+        Bends::of,
+    );
     assert_eq!(turned.translation, DVec3::ZERO);
     assert!((turned.rotation - turn.rotation).length() > 1e-3);
-    let (shifted, _) = refine(&scale, shift, Kind::Translation, 2, &prior(0.01), None);
+    let (shifted, _) = refine(
+        &scale,
+        shift,
+        Kind::Translation,
+        2,
+        &prior(0.01),
+        None,
+        Bends::of,
+    );
     assert_eq!(shifted.rotation, DVec3::ZERO);
     assert!((shifted.translation - shift.translation).length() > 1e-3);
-    let (full, _) = refine(&scale, shift, Kind::Full, 2, &prior(0.01), None);
+    let (full, _) = refine(&scale, shift, Kind::Full, 2, &prior(0.01), None, Bends::of);
     assert!(full.rotation.length() > 1e-3);
 }
 

@@ -163,13 +163,9 @@ fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
     } else {
         0.0
     };
-    let shown = evidence.body && region.kind.translates();
-    let unlikely = if shown && hollow(&region.rho, &evidence.owned) {
-        HOLLOW
-    } else {
-        0.0
-    };
+    let seen_hollow =
+        evidence.body && region.kind.translates() && hollow(&region.rho, &evidence.owned);
     (misfit + smoothness + 2.0 * freedom) / CORRELATED
         + parameters * (pixels / CORRELATED).max(2.0).ln()
-        + unlikely
+        + if seen_hollow { HOLLOW } else { 0.0 }
 }
