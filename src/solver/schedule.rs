@@ -26,8 +26,10 @@ const DONE: [usize; 2] = [CHOOSING_AGAIN + 2, CHOOSING_AGAIN + 12];
 /// over, and once kinds of motion are final.
 const REPARTITIONING: [usize; 2] = [THRESHOLD_PASSES, CHOOSING_AGAIN + 1];
 /// The passes on the finest scale in which regions are tried with what lies around them: once curves have settled,
-/// and once kinds of motion are final.
+/// and once kinds of motion are final; and how many more from the one in which stiffness is learnt, since depth that
+/// is as soft as the frames tell holds what stiff depth would lose again.
 const GROWING: [usize; 2] = [THRESHOLD_PASSES + 1, CHOOSING_AGAIN + 1];
+const GROWING_AT_REST: usize = 3;
 /// The pass on the finest scale from which hidden pixels are excused: earlier, regions would collapse.
 const EXCUSING: usize = 2;
 /// The pass of a scale after which the change of light is measured.
@@ -56,8 +58,17 @@ pub(super) struct Schedule {
     redrawn: bool,
     /// Whether curves are on their bodies since they were drawn.
     on_bodies: bool,
-    /// Whether regions know how stiff their depth is; `None` until motions are held.
-    resting: Option<bool>,
+    /// `None` until motions are held.
+    rest: Option<Rest>,
+}
+
+/// Motions are held.
+#[derive(Clone, Copy, Debug)]
+struct Rest {
+    /// Whether regions know how stiff their depth is.
+    learnt: bool,
+    /// Passes made since.
+    passes: usize,
 }
 
 impl Schedule {
@@ -78,7 +89,7 @@ impl Schedule {
             begun: false,
             redrawn: false,
             on_bodies: false,
-            resting: None,
+            rest: None,
         }
     }
 
@@ -137,23 +148,26 @@ impl Schedule {
 
     /// Whether motions are held, and only depth and curves go on.
     pub fn rests(&self) -> bool {
-        self.resting.is_some()
+        self.rest.is_some()
     }
 
     /// Whether regions are to find out how stiff their depth is: once, as soon as motions are held. Softer depth
     /// would take motions along wherever it follows noise.
     pub fn learns(&self) -> bool {
-        self.resting == Some(false)
+        self.rest.is_some_and(|rest| !rest.learnt)
     }
 
     /// Keeps them from finding out again.
     pub fn has_learnt(&mut self) {
-        self.resting = Some(true);
+        if let Some(rest) = &mut self.rest {
+            rest.learnt = true;
+        }
     }
 
     /// Whether regions are tried with what lies around them.
     pub fn grows(&self) -> bool {
-        self.level == 0 && self.deep().is_some_and(|deep| GROWING.contains(&deep))
+        let settling = self.level == 0 && self.deep().is_some_and(|deep| GROWING.contains(&deep));
+        settling || self.rest.is_some_and(|rest| rest.passes < GROWING_AT_REST)
     }
 
     /// Whether a curve may still leap anywhere.
@@ -228,6 +242,9 @@ impl Schedule {
     pub fn advance(&mut self) -> bool {
         self.begun = true;
         self.pass += 1;
+        if let Some(rest) = &mut self.rest {
+            rest.passes += 1;
+        }
         let most = PASSES[usize::from(self.level < self.start)];
         let done = self.level > 0 && self.deep().is_some_and(|deep| deep >= most);
         if done {
@@ -247,14 +264,17 @@ impl Schedule {
     pub fn comes_to_rest(&mut self, still: bool) -> bool {
         let due = !self.rests() && (still || self.at_least(DONE[1]));
         if due {
-            self.resting = Some(false);
+            self.rest = Some(Rest {
+                learnt: false,
+                passes: 0,
+            });
         }
         due
     }
 
     /// Lets motions go on, for settings that have changed.
     pub fn stir(&mut self) {
-        self.resting = None;
+        self.rest = None;
     }
 
     /// Goes back to the first pass of this scale, for curves drawn anew.
@@ -262,6 +282,6 @@ impl Schedule {
         self.pass = 0;
         self.redrawn = true;
         self.on_bodies = false;
-        self.resting = None;
+        self.rest = None;
     }
 }

@@ -3,29 +3,37 @@
 //! A region knows its depth from the pixels that it owns. What it lacks of its body it judges by depth carried on
 //! from there, while whoever holds it has bent a depth of his own after it: curves creep or stand still, though with
 //! the part where it belongs (7) would be far less. So the depth of each curve's region is fitted, on trial, as if
-//! all pixels within [`REACH`] of its curve were its own; robust weights leave out what is not. The trial stands if
+//! all pixels within [`REACH`] of its curve were its own; robust weights leave out what is not. What is missing often
+//! lies beyond a fold, a lid or a side face, which stiff depth would carry on level: the trial is softer. It stands if
 //!
 //! ```text
-//! min (7) with the region as tried  <  min (7) with the region as it was − c σ²        c = CLEARLY
+//! min (7), the region fitted to what lies around too  <  min (7), fitted to its own, as softly − c σ²    c = CLEARLY
 //! ```
 //!
 //! each over all outlines within that reach (`relaxation.rs`), the smoothness of depth, hundreds of times less,
-//! left out; the region then takes what it gains. Fitted anew to a shadow, or to nothing in particular, it gains a
-//! little as well, hence c. What its owner says is hidden in the second frame suits anyone by chance: no region
-//! is fitted to it or gains it.
+//! left out; the region then takes what it gains. Fitted anew to nothing in particular it gains a little as well,
+//! hence c. A body's shadow moves with it, and would be gained for fitting it better than ground that has become
+//! darker: in both minima the background's brightness may have changed by a factor of its own around each pixel, over
+//! [`SHADOW`] pixels, since a shadow carries no texture along. What its owner says is hidden in the second frame suits
+//! anyone by chance: no region is fitted to it or gains it.
 
 use super::Layers;
 use super::steps::DEPTH_STEPS;
 use crate::curves;
+use crate::frames::blur;
 use crate::grid::Grid;
 use crate::options::Options;
 use crate::solver::region::{Region, certainty};
 use crate::solver::rivalry;
-use crate::warp::Linearisation;
+use crate::warp::{Linearisation, RESIDUAL};
 use crate::window::Window;
 
 /// Pixels beyond its curve that a region is tried with.
 const REACH: f32 = 8.0;
+/// Share of μ that it is tried with.
+const SOFT: f64 = 0.1;
+/// Standard deviation of the window over which the background may become darker or brighter, in pixels.
+const SHADOW: f64 = 1.5;
 /// c: up to fifty variances are gained where nothing is missing, hundreds where a piece of the body is.
 const CLEARLY: f64 = 100.0;
 
@@ -55,10 +63,16 @@ impl Layers {
             || self.labels.map(|_| false),
             |cover| rivalry::hidden(&lines, &self.labels, cover),
         );
-        let grown = self.grown(k, &hidden, options);
-        let before = self.least(k, &lines, &window, options);
-        lines[k] = grown.cropped(&window).linearise(self.here(), window);
-        let after = self.least(k, &lines, &window, options);
+        self.excuse_shadows(&mut lines[0]);
+        let mut least = |region: &Region| {
+            lines[k] = region.cropped(&window).linearise(self.here(), window);
+            self.least(k, &lines, &window, options)
+        };
+        let own = |at| usize::from(self.labels[at]) == k;
+        let around = |at| own(at) || self.distance(k, at) < REACH && !hidden[at];
+        let before = least(&self.softly(k, own, options));
+        let grown = self.softly(k, around, options);
+        let after = least(&grown);
         if after.energy >= before.energy - CLEARLY * self.weights.sigma.powi(2) {
             return;
         }
@@ -75,16 +89,40 @@ impl Layers {
         self.relabel();
     }
 
-    /// Region k fitted to the pixels around its curve as well.
-    fn grown(&self, k: usize, hidden: &Grid<bool>, options: &Options) -> Region {
+    /// Takes from the residuals r of the background, at `line`, what a change of brightness there explains, I Σ I r / Σ I²
+    /// over its own pixels around; nothing where these are darker than noise.
+    fn excuse_shadows(&self, line: &mut Linearisation) {
+        let first = &self.here().first;
+        let noise = self.weights.sigma.powi(2) as f32;
+        let around = |value: &dyn Fn((usize, usize)) -> f32| {
+            let own = Grid::from_fn(first.width(), first.height(), |x, y| {
+                if self.labels[(x, y)] == 0 {
+                    value((x, y))
+                } else {
+                    0.0
+                }
+            });
+            blur(&own, SHADOW)
+        };
+        let square = around(&|at| first[at] * first[at]);
+        let product = around(&|at| first[at] * line.rows[at][RESIDUAL]);
+        for (i, row) in line.rows.data_mut().iter_mut().enumerate() {
+            let change = product.data()[i] / (square.data()[i] + noise);
+            row[RESIDUAL] -= change * first.data()[i];
+        }
+    }
+
+    /// Region k fitted, softly, to the pixels for which `owns` says so.
+    fn softly(&self, k: usize, owns: impl Fn((usize, usize)) -> bool, options: &Options) -> Region {
         let window = self.window(k);
         let owned = Grid::from_fn(window.width, window.height, |x, y| {
-            let at = (window.left + x, window.top + y);
-            let own = usize::from(self.labels[at]) == k;
-            f32::from(own || self.distance(k, at) < REACH && !hidden[at])
+            f32::from(owns((window.left + x, window.top + y)))
         });
-        let evidence = self.evidence_of(k, window, owned, options);
-        let prior = self.prior(k, &evidence, options);
+        let mut evidence = self.evidence_of(k, window, owned, options);
+        // A rim that is spared in the one fit and is inside in the other would be gained by every trial.
+        evidence.withheld = None;
+        let mut prior = self.prior(k, &evidence, options);
+        prior.strength *= SOFT;
         let mut part = self.regions[k].cropped(&window);
         for _ in 0..DEPTH_STEPS {
             part.fit_depth(&evidence, &prior);
