@@ -26,10 +26,8 @@ const DONE: [usize; 2] = [CHOOSING_AGAIN + 2, CHOOSING_AGAIN + 12];
 /// over, and once kinds of motion are final.
 const REPARTITIONING: [usize; 2] = [THRESHOLD_PASSES, CHOOSING_AGAIN + 1];
 /// The passes on the finest scale in which regions are tried with what lies around them: once curves have settled,
-/// and once kinds of motion are final; and how many more from the one in which stiffness is learnt, since depth that
-/// is as soft as the frames tell holds what stiff depth would lose again.
+/// and once kinds of motion are final.
 const GROWING: [usize; 2] = [THRESHOLD_PASSES + 1, CHOOSING_AGAIN + 1];
-const GROWING_AT_REST: usize = 3;
 /// The pass on the finest scale from which hidden pixels are excused: earlier, regions would collapse.
 const EXCUSING: usize = 2;
 /// The pass of a scale after which the change of light is measured.
@@ -58,17 +56,8 @@ pub(super) struct Schedule {
     redrawn: bool,
     /// Whether curves are on their bodies since they were drawn.
     on_bodies: bool,
-    /// `None` until motions are held.
-    rest: Option<Rest>,
-}
-
-/// Motions are held.
-#[derive(Clone, Copy, Debug)]
-struct Rest {
-    /// Whether regions know how stiff their depth is.
-    learnt: bool,
-    /// Passes made since.
-    passes: usize,
+    /// Whether regions know how stiff their depth is; `None` until motions are held.
+    resting: Option<bool>,
 }
 
 impl Schedule {
@@ -89,7 +78,7 @@ impl Schedule {
             begun: false,
             redrawn: false,
             on_bodies: false,
-            rest: None,
+            resting: None,
         }
     }
 
@@ -148,26 +137,23 @@ impl Schedule {
 
     /// Whether motions are held, and only depth and curves go on.
     pub fn rests(&self) -> bool {
-        self.rest.is_some()
+        self.resting.is_some()
     }
 
     /// Whether regions are to find out how stiff their depth is: once, as soon as motions are held. Softer depth
     /// would take motions along wherever it follows noise.
     pub fn learns(&self) -> bool {
-        self.rest.is_some_and(|rest| !rest.learnt)
+        self.resting == Some(false)
     }
 
     /// Keeps them from finding out again.
     pub fn has_learnt(&mut self) {
-        if let Some(rest) = &mut self.rest {
-            rest.learnt = true;
-        }
+        self.resting = Some(true);
     }
 
     /// Whether regions are tried with what lies around them.
     pub fn grows(&self) -> bool {
-        let settling = self.level == 0 && self.deep().is_some_and(|deep| GROWING.contains(&deep));
-        settling || self.rest.is_some_and(|rest| rest.passes < GROWING_AT_REST)
+        self.level == 0 && self.deep().is_some_and(|deep| GROWING.contains(&deep))
     }
 
     /// Whether a curve may still leap anywhere.
@@ -242,9 +228,6 @@ impl Schedule {
     pub fn advance(&mut self) -> bool {
         self.begun = true;
         self.pass += 1;
-        if let Some(rest) = &mut self.rest {
-            rest.passes += 1;
-        }
         let most = PASSES[usize::from(self.level < self.start)];
         let done = self.level > 0 && self.deep().is_some_and(|deep| deep >= most);
         if done {
@@ -264,17 +247,14 @@ impl Schedule {
     pub fn comes_to_rest(&mut self, still: bool) -> bool {
         let due = !self.rests() && (still || self.at_least(DONE[1]));
         if due {
-            self.rest = Some(Rest {
-                learnt: false,
-                passes: 0,
-            });
+            self.resting = Some(false);
         }
         due
     }
 
     /// Lets motions go on, for settings that have changed.
     pub fn stir(&mut self) {
-        self.rest = None;
+        self.resting = None;
     }
 
     /// Goes back to the first pass of this scale, for curves drawn anew.
@@ -282,6 +262,6 @@ impl Schedule {
         self.pass = 0;
         self.redrawn = true;
         self.on_bodies = false;
-        self.rest = None;
+        self.resting = None;
     }
 }
