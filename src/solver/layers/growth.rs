@@ -34,7 +34,7 @@ const REACH: f32 = 8.0;
 const SOFT: f64 = 0.1;
 /// Standard deviation of the window over which the background may become darker or brighter, in pixels.
 const SHADOW: f64 = 1.5;
-/// c: up to ninety variances are gained where nothing is missing, hundreds where a piece of the body is.
+/// c: mostly less than ninety variances are gained where nothing is missing, hundreds where a piece of the body is.
 const CLEARLY: f64 = 100.0;
 
 /// A partition of a window into a region and the others, and what it costs.
