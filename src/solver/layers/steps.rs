@@ -19,7 +19,7 @@ use crate::warp::pyramid;
 /// Joint steps in a pass.
 const JOINT_STEPS: usize = 2;
 /// Steps of depth alone where motions are held: as many as depth has in a pass in which they are not.
-pub(super) const DEPTH_STEPS: usize = JOINT_STEPS + 1;
+const DEPTH_STEPS: usize = JOINT_STEPS + 1;
 /// Pixels by which a region grows when all curves move to the least partition.
 const REACH: f32 = 1.0;
 
