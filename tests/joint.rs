@@ -12,6 +12,7 @@ use relievo::{Camera, Grid, RigidMotion};
 
 const W: usize = 72;
 const H: usize = 56;
+
 fn camera() -> Camera {
     Camera::centred(60.0, W, H).unwrap()
 }
