@@ -35,8 +35,8 @@ const SOFT: f64 = 0.1;
 const STEPS: usize = 8;
 /// Standard deviation of the window over which the background may become darker or brighter, in pixels.
 const SHADOW: f64 = 1.5;
-/// c: where nothing is missing sixty variances are gained in the median, seldom two hundred; where a piece of the body
-/// is, mostly two hundred to nine hundred. What was gained in vain is lost again in the passes that follow.
+/// c: where nothing is missing some sixty variances are gained in the median, seldom two hundred; where a piece of the
+/// body is, nearly three hundred. What was gained in vain is lost again in the passes that follow.
 const CLEARLY: f64 = 100.0;
 
 /// A partition of a window into a region and the others, and what it costs.
