@@ -22,42 +22,41 @@ use crate::frames::FramePair;
 /// Curves at most.
 const MOST: usize = 4;
 
-/// The largest four of [`bodies`].
+/// The largest four of [`Look::bodies`]; none when one rigid motion explains both frames. `camera` is the frames' own.
 pub fn automatic(pair: &FramePair, camera: &Camera) -> Vec<Shape> {
-    let mut curves = bodies(pair, camera);
+    let look = Look::at(pair, camera);
+    let mut curves = look.map_or_else(Vec::new, |look| look.bodies());
     curves.truncate(MOST);
     curves
 }
 
-/// Polygons roughly on the things that move by themselves, the largest first; none when one rigid motion
-/// explains both frames. Corners are in pixels of the frame, inside it, to a tenth of a pixel. `camera` is
-/// the frames' own.
-pub fn bodies(pair: &FramePair, camera: &Camera) -> Vec<Shape> {
-    let Some(look) = Look::at(pair, camera) else {
-        return Vec::new();
-    };
-    let (sights, lattice) = (&look.sights, &look.lattice);
-    let costs: Vec<Vec<f64>> = Bodies::find(&look, Search::QUICK)
-        .members
-        .iter()
-        .map(|body| body.iter().map(|&k| &look.surfaces.all[k]))
-        .map(|surfaces| least_costs(sights, lattice, surfaces))
-        .collect();
-    let mut curves: Vec<Outline> = (1..costs.len())
-        .flat_map(|k| {
-            let rivals = || costs.iter().enumerate().filter(move |(j, _)| *j != k);
-            let margin: Vec<f64> = (0..sights.all.len())
-                .map(|i| {
-                    let least = rivals().map(|(_, c)| c[i]).fold(f64::INFINITY, f64::min);
-                    least - costs[k][i]
-                })
-                .collect();
-            outlines(lattice, &margin, look.size, (pair.width(), pair.height()))
-        })
-        .collect();
-    curves.sort_by(|a, b| b.share.total_cmp(&a.share));
-    let polygon = |outline: Outline| Shape::Polygon {
-        points: outline.corners,
-    };
-    curves.into_iter().map(polygon).collect()
+impl Look {
+    /// Polygons roughly on the things that move by themselves, the largest first; none when one rigid motion explains
+    /// both frames. Corners are in pixels of the frame, inside it, to a tenth of a pixel.
+    pub fn bodies(&self) -> Vec<Shape> {
+        let (sights, lattice) = (&self.sights, &self.lattice);
+        let costs: Vec<Vec<f64>> = Bodies::find(self, Search::QUICK)
+            .members
+            .iter()
+            .map(|body| body.iter().map(|&k| &self.surfaces.all[k]))
+            .map(|surfaces| least_costs(sights, lattice, surfaces))
+            .collect();
+        let mut curves: Vec<Outline> = (1..costs.len())
+            .flat_map(|k| {
+                let rivals = || costs.iter().enumerate().filter(move |(j, _)| *j != k);
+                let margin: Vec<f64> = (0..sights.all.len())
+                    .map(|i| {
+                        let least = rivals().map(|(_, c)| c[i]).fold(f64::INFINITY, f64::min);
+                        least - costs[k][i]
+                    })
+                    .collect();
+                outlines(lattice, &margin, self.size, self.frame)
+            })
+            .collect();
+        curves.sort_by(|a, b| b.share.total_cmp(&a.share));
+        let polygon = |outline: Outline| Shape::Polygon {
+            points: outline.corners,
+        };
+        curves.into_iter().map(polygon).collect()
+    }
 }

@@ -35,15 +35,17 @@ const WINDOW: f64 = 4.0;
 const WORST: f64 = 16.0;
 
 /// What is seen.
-pub(super) struct Look {
+pub struct Look {
     /// Where the patches are.
-    pub lattice: Lattice,
+    pub(super) lattice: Lattice,
     /// What they say.
-    pub sights: Sights,
+    pub(super) sights: Sights,
     /// Planes in motion that explain them, each in one piece.
-    pub surfaces: Surfaces,
+    pub(super) surfaces: Surfaces,
     /// Columns and rows of the frames that they were matched in.
-    pub size: (usize, usize),
+    pub(super) size: (usize, usize),
+    /// Columns and rows of the frames as they came.
+    pub(super) frame: (usize, usize),
 }
 
 impl Look {
@@ -62,17 +64,18 @@ impl Look {
             lattice,
             sights,
             size: (scales[0].width(), scales[0].height()),
+            frame: (pair.width(), pair.height()),
         })
     }
 
     /// The same patches and surfaces, taken for what a camera of focal length `focal` sees; pixels of
     /// the frames that they were matched in.
-    pub fn through(&self, focal: f64) -> Self {
+    pub(super) fn through(&self, focal: f64) -> Self {
         Self {
             lattice: self.lattice.clone(),
             sights: self.sights.through(focal),
             surfaces: self.surfaces.stretched(self.sights.focal / focal),
-            size: self.size,
+            ..*self
         }
     }
 }

@@ -9,6 +9,7 @@ mod lattice;
 mod likeness;
 mod look;
 mod outline;
+mod parting;
 mod patches;
 mod rigid;
 mod seams;
@@ -18,7 +19,8 @@ mod surfaces;
 mod union;
 
 pub use assignment::assignment;
-pub use automatic::{automatic, bodies};
+pub use automatic::automatic;
 pub use consensus::{dominant, inside};
 pub use focal::{FocalLength, focal_length};
+pub use look::Look;
 pub use patches::{Patch, patches};

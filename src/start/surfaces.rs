@@ -25,7 +25,7 @@ const TRIED: (usize, usize) = (4, 40);
 /// Rounds of fitting and sharing out.
 const ROUNDS: usize = 4;
 /// Patches that a surface needs.
-const FEWEST: usize = 4;
+pub(super) const FEWEST: usize = 4;
 
 /// Surfaces with the patches they win.
 #[derive(Clone)]
@@ -160,6 +160,14 @@ impl Surfaces {
             owner,
             energy: self.energy,
         }
+    }
+
+    /// Other surfaces, fitted and each in one piece, if they are a shorter description.
+    pub fn instead(&self, sights: &Sights, lattice: &Lattice, all: Vec<Surface>) -> Option<Self> {
+        let described =
+            |all| Self::share_out(sights, lattice, all).settled(sights, lattice, ROUNDS);
+        let [these, others] = [self.all.clone(), all].map(described);
+        (others.energy < these.energy).then(|| others.torn_apart(sights, lattice))
     }
 
     /// The same, of rays `factor` times as long.

@@ -2,14 +2,15 @@
 //!
 //! A circle says which thing, hardly where it ends, and whatever else it holds would get a motion and a depth
 //! of its own that compete with their owner's. So before the first pass the bodies that patches show are
-//! looked for ([`start::bodies`]). If every curve is on one of its own ([`start::assignment`]), motions are
-//! proposed from what is there, and curves go there with their first step, to be held until regions know
-//! their depth (`schedule.rs`). Otherwise, and once a pass has been made, curves start as drawn.
+//! looked for ([`Look::bodies`]), and once more if curves are more than bodies ([`Look::parted`]). If every
+//! curve is on one of its own ([`start::assignment`]), motions are proposed from what is there, and curves go
+//! there with their first step, to be held until regions know their depth (`schedule.rs`). Otherwise, and once
+//! a pass has been made, curves start as drawn.
 
 use super::Layers;
 use crate::grid::Grid;
 use crate::options::Options;
-use crate::start::{self, Patch};
+use crate::start::{self, Look, Patch};
 
 /// Rounds in which motions are proposed: in the first, curves do not know of each other's.
 const PROPOSALS: usize = 3;
@@ -34,15 +35,12 @@ impl Layers {
         if !options.bodies || self.phi.is_empty() {
             return;
         }
-        let shapes = start::bodies(&self.pair, &self.scales[0].camera);
-        let whole = self.scales[0].whole();
-        let all: Vec<Grid<f32>> = shapes
-            .iter()
-            .filter_map(|shape| shape.level_set(whole.width, whole.height, 0).ok())
-            .map(|phi| self.at_this_scale(phi))
-            .collect();
-        if let Some(which) = start::assignment(&self.phi, &all) {
-            let theirs = which.iter().map(|&b| all[b].clone()).collect();
+        let Some(look) = Look::at(&self.pair, &self.scales[0].camera) else {
+            return;
+        };
+        let theirs = self.bodies_of(&look);
+        let theirs = theirs.or_else(|| self.bodies_of(&look.parted(&self.phi)?));
+        if let Some(theirs) = theirs {
             let drawn = std::mem::replace(&mut self.phi, theirs);
             self.relabel();
             self.propose_motions(0);
@@ -50,6 +48,18 @@ impl Layers {
             self.relabel();
             self.destination = Destination::Ahead(bodies);
         }
+    }
+
+    /// The body that each curve is drawn on, if each is on one, as level sets.
+    fn bodies_of(&self, look: &Look) -> Option<Vec<Grid<f32>>> {
+        let whole = self.scales[0].whole();
+        let shapes = look.bodies().into_iter();
+        let all: Vec<Grid<f32>> = shapes
+            .filter_map(|shape| shape.level_set(whole.width, whole.height, 0).ok())
+            .map(|phi| self.at_this_scale(phi))
+            .collect();
+        let which = start::assignment(&self.phi, &all)?;
+        Some(which.iter().map(|&b| all[b].clone()).collect())
     }
 
     /// Curves go to their bodies, and stay there until regions have motions and depth of their own.
