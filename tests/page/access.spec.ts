@@ -59,6 +59,13 @@ test("follows the system's colours until the button says otherwise, and remember
   expect(await brightness(page)).toBeGreaterThan(180);
 });
 
+test("the chosen view stays in sight when the window becomes narrow", async ({ opened: page }) => {
+  await page.setViewportSize({ width: 1280, height: 800 });
+  await chooseView(page, "Compare");
+  await page.setViewportSize({ width: 390, height: 844 });
+  await expect(page.locator("#views label:has(:checked)")).toBeInViewport({ ratio: 0.99 });
+});
+
 test.describe("on a phone", () => {
   test.use({ viewport: { width: 390, height: 844 }, hasTouch: true });
 

@@ -20,6 +20,7 @@ export function mountViewbar(): void {
     ({ view, viewParams }) => [view, viewParams],
     () => void look(),
   );
+  new ResizeObserver(keepChosenInSight).observe(byId("views"));
   mountTools();
   mountShowing();
 }
@@ -32,6 +33,16 @@ function buildViews(state: Readonly<State>): void {
     input.checked = id === store.state.view;
     input.addEventListener("change", () => store.update({ view: id }));
     place.append(make("label", {}, input, make("span", {}, label)));
+  }
+}
+
+/** Scrolls the row of views, and nothing else, to the one that is chosen: a narrower window may have cut it off. */
+function keepChosenInSight(): void {
+  const row = byId("views");
+  const chosen = row.querySelector("label:has(:checked)")?.getBoundingClientRect();
+  if (chosen) {
+    const { left, right } = row.getBoundingClientRect();
+    row.scrollLeft += Math.min(0, chosen.left - left) + Math.max(0, chosen.right - right);
   }
 }
 
