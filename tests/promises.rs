@@ -79,6 +79,19 @@ fn turning_bodies_are_not_taken_for_their_mirror_images() {
     }
 }
 
+// In WebAssembly this seed draws another scene.
+#[cfg(not(target_arch = "wasm32"))]
+#[test]
+fn a_body_whose_turn_is_hardly_told_from_its_relief_is_followed_to_the_end() {
+    // In noise of six grey levels its T creeps for dozens of steps; it was off by 8° and depth by 3 % halfway.
+    let sequence = scene::variant("carousel", 1019, 6.0, 9.0, 320, 240).unwrap();
+    let found = solved(&sequence, best(), |v| v).interpretation();
+    let scores = compare(&found, &sequence.truth).unwrap();
+    let (angle, depth) = (scores.translation_angle[3], scores.depth_error[3]);
+    assert!(angle.unwrap() < 4.0, "T is off by {angle:?}°");
+    assert!(depth.unwrap() < 0.015, "depth is off by {depth:?}");
+}
+
 // In WebAssembly this seed draws another scene, whose background does not travel.
 #[cfg(not(target_arch = "wasm32"))]
 #[test]

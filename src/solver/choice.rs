@@ -111,10 +111,7 @@ fn of_best_relief(
 }
 
 fn fitted(mut region: Region, evidence: &Evidence, prior: &FieldPrior, steps: usize) -> Fit {
-    for _ in 0..steps {
-        region.fit_jointly(evidence, prior);
-        region.normalise(&evidence.owned);
-    }
+    region.fit(evidence, prior, [steps; 2]);
     let cost = criterion(&region, evidence, prior);
     Fit { region, cost }
 }

@@ -13,6 +13,8 @@ use crate::window::Window;
 
 /// Inverse depth is kept between these; the region's mean is 1.
 pub(super) const RHO_RANGE: [f32; 2] = [0.02, 20.0];
+/// Angle, in radians, by which a step turns a motion that does not stand still: a fiftieth of a degree.
+const TURNS: f64 = 3.5e-4;
 /// Pixels over which a surface's slope is taken for the same.
 const SLOPE: f64 = 8.0;
 
@@ -109,7 +111,7 @@ impl Region {
     }
 
     /// Motion and depth together: one joint step.
-    pub fn fit_jointly(&mut self, evidence: &Evidence, prior: &FieldPrior) {
+    fn fit_jointly(&mut self, evidence: &Evidence, prior: &FieldPrior) {
         let linearisation = evidence.linearise(self);
         let weight = evidence.fitting_weights(&linearisation);
         let bends = self.bends(&linearisation, evidence, &weight);
@@ -131,6 +133,22 @@ impl Region {
         self.motion = step.motion;
         if self.kind.translates() {
             self.add_depth(step.depth_step.data().iter().copied());
+        }
+    }
+
+    /// Joint steps: `least`, and up to `most` while T still turns, or ω changes, by [`TURNS`] and more. How deep relief is
+    /// and how far a body turns creep together, which takes dozens where two views hardly tell them apart.
+    pub fn fit(&mut self, evidence: &Evidence, prior: &FieldPrior, [least, most]: [usize; 2]) {
+        for taken in 1..=most {
+            let before = self.motion;
+            self.fit_jointly(evidence, prior);
+            self.normalise(&evidence.owned);
+            // T = 0 has no direction: not a number, which `max` leaves out.
+            let turned = before.translation.angle_between(self.motion.translation);
+            let turned = turned.max((self.motion.rotation - before.rotation).length());
+            if taken >= least && turned < TURNS {
+                break;
+            }
         }
     }
 

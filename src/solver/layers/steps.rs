@@ -16,10 +16,11 @@ use crate::solver::weights::Weights;
 use crate::solver::{choice, rivalry, stiffness};
 use crate::warp::pyramid;
 
-/// Joint steps in a pass.
-const JOINT_STEPS: usize = 2;
+/// Joint steps in a pass, and in one in which depth is free to depart from its surface as many as this if motion does not
+/// stand still.
+const JOINT_STEPS: [usize; 2] = [2, 8];
 /// Steps of depth alone where motions are held: as many as depth has in a pass in which they are not.
-const DEPTH_STEPS: usize = JOINT_STEPS + 1;
+const DEPTH_STEPS: usize = JOINT_STEPS[0] + 1;
 /// Pixels by which a region grows when all curves move to the least partition.
 const REACH: f32 = 1.0;
 
@@ -37,7 +38,7 @@ impl Approach for Layers {
         if schedule.deep().is_none() {
             if !schedule.begins() {
                 self.each_region(options, |region, evidence, _| {
-                    for _ in 0..JOINT_STEPS {
+                    for _ in 0..JOINT_STEPS[0] {
                         region.fit_flat(evidence);
                     }
                 });
@@ -53,10 +54,8 @@ impl Approach for Layers {
             if options.search && schedule.searches() {
                 region.search(evidence, prior);
             }
-            for _ in 0..JOINT_STEPS {
-                region.fit_jointly(evidence, prior);
-                region.normalise(&evidence.owned);
-            }
+            let most = JOINT_STEPS[usize::from(evidence.departing)];
+            region.fit(evidence, prior, [JOINT_STEPS[0], most]);
             if options.search && schedule.chooses_relief() && region.kind == Kind::Full {
                 *region = choice::in_relief(region, evidence, prior, schedule.reliefs());
             }
