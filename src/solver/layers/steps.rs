@@ -16,8 +16,9 @@ use crate::solver::weights::Weights;
 use crate::solver::{choice, rivalry, stiffness};
 use crate::warp::pyramid;
 
-/// Joint steps in a pass, and in one in which depth is free to depart from its surface as many as this if motion does not
-/// stand still.
+/// Joint steps in a pass, and for a body whose depth is free to depart from its surface as many as this while motion does
+/// not stand still. Not for the background: its depth may leap where no curve is, and T, followed to the end, goes after
+/// what no surface explains.
 const JOINT_STEPS: [usize; 2] = [2, 8];
 /// Steps of depth alone where motions are held: as many as depth has in a pass in which they are not.
 const DEPTH_STEPS: usize = JOINT_STEPS[0] + 1;
@@ -54,7 +55,7 @@ impl Approach for Layers {
             if options.search && schedule.searches() {
                 region.search(evidence, prior);
             }
-            let most = JOINT_STEPS[usize::from(evidence.departing)];
+            let most = JOINT_STEPS[usize::from(evidence.body && evidence.departing)];
             region.fit(evidence, prior, [JOINT_STEPS[0], most]);
             if options.search && schedule.chooses_relief() && region.kind == Kind::Full {
                 *region = choice::in_relief(region, evidence, prior, schedule.reliefs());
