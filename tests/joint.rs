@@ -86,19 +86,36 @@ fn departing(rho: &Grid<f32>, surface: Option<&Polynomials>) -> Bends {
     Bends::of(&surface.map_or_else(|| rho.clone(), |cubic| cubic.departure(rho)))
 }
 
-/// A joint step from `motion` and `rho`, of `kind`, smoothness acting on `bends`.
+/// How steps are taken.
+struct Manner<'a> {
+    kind: Kind,
+    prior: FieldPrior,
+    surface: Option<&'a Polynomials>,
+    keeps_shown: bool,
+}
+
+impl Manner<'_> {
+    fn of(kind: Kind, strength: f64) -> Self {
+        Self {
+            kind,
+            prior: prior(strength),
+            surface: None,
+            keeps_shown: false,
+        }
+    }
+}
+
+/// A joint step from `motion` and `rho`, smoothness acting on `bends`.
 fn step(
     scale: &Scale,
     motion: &RigidMotion,
     rho: &Grid<f32>,
-    kind: Kind,
-    prior: &FieldPrior,
-    surface: Option<&Polynomials>,
+    manner: &Manner,
     bends: &Bends,
 ) -> Joint {
     let line = scale.linearise(motion, rho, scale.whole());
     let weight = line.inside.map(f32::from);
-    let edges = prior.edges(bends);
+    let edges = manner.prior.edges(bends);
     let each =
         |of: fn(&Row) -> f32| Grid::from_fn(W, H, |x, y| weight[(x, y)] * of(&line.rows[(x, y)]));
     let data = each(|row| row[0] * row[0]);
@@ -109,27 +126,26 @@ fn step(
         data: &data,
         force: &each(|row| -row[0] * row[RESIDUAL]),
         pull: &edges.pull(bends),
-        surface,
+        surface: manner.surface,
         rotation_prior: 0.0,
-        kind,
+        kind: manner.kind,
+        keeps_shown: manner.keeps_shown,
         longest: 2.0 / scale.camera.focal,
     }
     .solve(motion)
 }
 
-/// `steps` joint steps of `kind` from `motion` and a level surface, smoothness acting on the `bends` of ρ as it is.
+/// `steps` joint steps from `motion` and a level surface, smoothness acting on the `bends` of ρ as it is.
 fn refine(
     scale: &Scale,
     mut motion: RigidMotion,
-    kind: Kind,
     steps: usize,
-    prior: &FieldPrior,
-    surface: Option<&Polynomials>,
+    manner: &Manner,
     bends: impl Fn(&Grid<f32>) -> Bends,
 ) -> (RigidMotion, Grid<f32>) {
     let mut rho = Grid::new(W, H, 1.0f32);
     for _ in 0..steps {
-        let step = step(scale, &motion, &rho, kind, prior, surface, &bends(&rho));
+        let step = step(scale, &motion, &rho, manner, &bends(&rho));
         motion = step.motion;
         for (r, d) in rho.data_mut().iter_mut().zip(step.depth_step.data()) {
             *r += d;
@@ -144,7 +160,8 @@ fn joint_steps_lead_from_a_rough_motion_to_the_true_one() {
     let scale = filmed(&truth, &relief());
     let rough = motion([0.048, 0.032, 0.012], [0.004, -0.004, 0.005]);
     let before = degrees(rough.translation, truth.translation);
-    let (found, rho) = refine(&scale, rough, Kind::Full, 12, &prior(0.01), None, Bends::of);
+    let manner = Manner::of(Kind::Full, 0.01);
+    let (found, rho) = refine(&scale, rough, 12, &manner, Bends::of);
     let off = degrees(found.translation, truth.translation);
     assert!(before > 10.0 && off < 2.0, "T is off by {off}°");
     let turn = (found.rotation - truth.rotation).length();
@@ -166,9 +183,12 @@ fn a_saddle_keeps_its_relief_where_cubic_surfaces_are_free() {
     let cubic = Polynomials::over(&Grid::new(W, H, 1.0), 3).unwrap();
     let found = |surface: Option<&Polynomials>| {
         let rough = motion([0.048, 0.032, 0.012], [0.004, -0.004, 0.005]);
-        let stiff = prior(1000.0);
+        let stiff = Manner {
+            surface,
+            ..Manner::of(Kind::Full, 1000.0)
+        };
         let bends = |rho: &Grid<f32>| departing(rho, surface);
-        let (motion, rho) = refine(&scale, rough, Kind::Full, 15, &stiff, surface, bends);
+        let (motion, rho) = refine(&scale, rough, 15, &stiff, bends);
         let mean = |g: &Grid<f32>| g.data().iter().sum::<f32>() / g.len() as f32;
         let (of_found, of_truth) = (mean(&rho), mean(&saddle));
         let pairs = rho.data().iter().zip(saddle.data());
@@ -190,6 +210,28 @@ fn a_saddle_keeps_its_relief_where_cubic_surfaces_are_free() {
     assert!(relief < 0.5 && off > 1.0, "{relief}, {off}° without");
 }
 
+/// Smoothness flattens relief as it is; T shall not turn to where the same film has less of it.
+#[test]
+fn t_stays_where_it_is_headed_where_it_keeps_how_much_relief_shows() {
+    let truth = motion([0.05, 0.02, 0.03], [0.01, -0.012, 0.015]);
+    let leap = Grid::from_fn(W, H, |x, y| {
+        let near = (20..50).contains(&x) && (14..42).contains(&y);
+        if near { 1.6f32 } else { 0.7 + 0.006 * y as f32 }
+    });
+    let scale = filmed(&truth, &leap);
+    let off = |keeps_shown| {
+        let manner = Manner {
+            keeps_shown,
+            ..Manner::of(Kind::Full, 0.1)
+        };
+        let (found, _) = refine(&scale, truth, 20, &manner, Bends::of);
+        degrees(found.translation, truth.translation)
+    };
+    let (shown, length) = (off(true), off(false));
+    assert!(shown < 1.5, "T is off by {shown}°");
+    assert!(length > 4.0, "{length}° where T keeps its length");
+}
+
 /// Smoothness about its own slope lets a saddle be as deep as it likes, but what is expected follows a step behind.
 #[test]
 fn relief_comes_with_motion_in_a_few_steps_where_a_step_takes_quadratics_at_once() {
@@ -202,8 +244,11 @@ fn relief_comes_with_motion_in_a_few_steps_where_a_step_takes_quadratics_at_once
     let quadratic = Polynomials::over(&Grid::new(W, H, 1.0), 2).unwrap();
     let off = |surface: Option<&Polynomials>| {
         let rough = motion([0.048, 0.032, 0.012], [0.004, -0.004, 0.005]);
-        let stiff = prior(1000.0);
-        let (found, _) = refine(&scale, rough, Kind::Full, 4, &stiff, surface, about_slope);
+        let stiff = Manner {
+            surface,
+            ..Manner::of(Kind::Full, 1000.0)
+        };
+        let (found, _) = refine(&scale, rough, 4, &stiff, about_slope);
         degrees(found.translation, truth.translation)
     };
     let (at_once, behind) = (off(Some(&quadratic)), off(None));
@@ -220,9 +265,8 @@ fn a_step_ends_where_its_energy_is_least() {
     let rho = saddle().map(|r| 0.5 * r + 0.5);
     let line = scale.linearise(&from, &rho, scale.whole());
     let weight = line.inside.map(f32::from);
-    let prior = prior(100.0);
     let departure = cubic.departure(&rho);
-    let edges = prior.edges(&Bends::of(&departure));
+    let edges = prior(100.0).edges(&Bends::of(&departure));
     let whole = Grid::new(W, H, 1.0);
     // The step's model: data around where it starts, and smoothness of what departs from a cubic.
     let energy = |step: &[f64; 6], departs: &Grid<f32>, surface: &Grid<f32>| {
@@ -240,9 +284,10 @@ fn a_step_ends_where_its_energy_is_least() {
         &scale,
         &from,
         &rho,
-        Kind::Translation,
-        &prior,
-        Some(&cubic),
+        &Manner {
+            surface: Some(&cubic),
+            ..Manner::of(Kind::Translation, 100.0)
+        },
         &departing(&rho, Some(&cubic)),
     );
     let moved = taken.motion.translation - from.translation;
@@ -308,20 +353,16 @@ fn a_kind_of_motion_forbids_what_it_says() {
     let (still, _) = refine(
         &scale,
         RigidMotion::default(),
-        Kind::Still,
         2,
-        &prior(0.01),
-        None,
+        &Manner::of(Kind::Still, 0.01),
         Bends::of,
     );
     assert_eq!(still, RigidMotion::default());
     let (turned, _) = refine(
         &scale,
         turn,
-        Kind::Rotation,
         2,
-        &prior(0.01),
-        None,
+        &Manner::of(Kind::Rotation, 0.01),
         Bends::of,
     );
     assert_eq!(turned.translation, DVec3::ZERO);
@@ -329,15 +370,13 @@ fn a_kind_of_motion_forbids_what_it_says() {
     let (shifted, _) = refine(
         &scale,
         shift,
-        Kind::Translation,
         2,
-        &prior(0.01),
-        None,
+        &Manner::of(Kind::Translation, 0.01),
         Bends::of,
     );
     assert_eq!(shifted.rotation, DVec3::ZERO);
     assert!((shifted.translation - shift.translation).length() > 1e-3);
-    let (full, _) = refine(&scale, shift, Kind::Full, 2, &prior(0.01), None, Bends::of);
+    let (full, _) = refine(&scale, shift, 2, &Manner::of(Kind::Full, 0.01), Bends::of);
     assert!(full.rotation.length() > 1e-3);
 }
 

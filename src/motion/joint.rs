@@ -15,8 +15,12 @@
 //! the depth undo each other. Here the best departure for *every* motion and surface is known to first order,
 //! δd = x + S z with z = (δm, δq), from one linear system with a right-hand side for each number in z and one more,
 //! A x = −(ω a r + κ (ρ − 1) + L(d, s)) and A S = −C, where C = ω a b for a motion and (ω a² + κ) b_k for a surface;
-//! what is left is at most 14 × 14. T's length is not observable, so that δT is held perpendicular to T. One step; the
-//! caller repeats it around the new linearisation.
+//! what is left is at most 14 × 14. One step; the caller repeats it around the new linearisation.
+//!
+//! T's length is not observable: longer T and less ρ are the same film. Held perpendicular to itself, T turns to where
+//! the same film takes less relief and so less smoothness: to the side, away from where it is headed. That keeps small
+//! regions, which hardly tell, from guessing. Where relief is large and well seen, what is held is how much of ρ the frames
+//! show, Σ ω ρ a² as a function of T, so that δT is perpendicular to its gradient g = Σ ω a ∂r/∂T.
 
 use glam::{DQuat, DVec3};
 
@@ -47,6 +51,8 @@ pub struct JointStep<'a> {
     pub rotation_prior: f64,
     /// What may move.
     pub kind: Kind,
+    /// Whether T keeps how much of ρ shows, rather than its length.
+    pub keeps_shown: bool,
     /// Longest step of T and of ω: the linearisation holds no further.
     pub longest: f64,
 }
@@ -189,12 +195,26 @@ impl JointStep<'_> {
         }
     }
 
-    /// The directions of (T, ω) that the kind leaves free, T's perpendicular to T.
+    /// g.
+    fn shown(&self) -> DVec3 {
+        let each = self.rows.data().iter().zip(self.weight.data());
+        each.map(|(row, &w)| {
+            let by_translation = DVec3::new(row[1].into(), row[2].into(), row[3].into());
+            f64::from(w * row[0]) * by_translation
+        })
+        .sum()
+    }
+
+    /// The directions of (T, ω) that the kind leaves free, T's perpendicular to T or to g.
     fn free_directions(&self, motion: &RigidMotion) -> Vec<[f64; 6]> {
         let mut free: Vec<[f64; 6]> = Vec::new();
         if self.kind.translates() {
-            let along = motion.translation.normalize_or(DVec3::X);
-            let (a, b) = along.any_orthonormal_pair();
+            let held = if self.keeps_shown {
+                self.shown()
+            } else {
+                motion.translation
+            };
+            let (a, b) = held.normalize_or(DVec3::X).any_orthonormal_pair();
             for d in [a, b] {
                 free.push([d.x, d.y, d.z, 0.0, 0.0, 0.0]);
             }

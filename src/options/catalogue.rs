@@ -198,6 +198,12 @@ static CATALOGUE: &[Descriptor] = &[
         "step 3",
     ),
     toggle(
+        "sweep",
+        "Sweep of depths",
+        "Where a region's depth does not explain its pixels, as behind a thing that stands before another, try every depth there. Coarse to fine only.",
+        "step 2",
+    ),
+    toggle(
         "edges",
         "Edges of brightness",
         "Let outlines cost less, and the background's depth step, where brightness has an edge: what motion leaves open is decided there. Coarse to fine only.",

@@ -121,6 +121,8 @@ pub struct Options {
     pub partition: bool,
     /// Whether regions are tried with what lies around them.
     pub growth: bool,
+    /// Whether depth that the frames refute is sought anew.
+    pub sweep: bool,
     /// Whether outlines cost less, and the background's depth may step, on edges of brightness.
     pub edges: bool,
     /// Whether each region takes the smoothness that best foretells pixels left out.
@@ -157,6 +159,7 @@ impl Options {
                 islands: true,
                 partition: true,
                 growth: true,
+                sweep: true,
                 edges: true,
                 cross_validation: true,
                 max_passes: 40,
@@ -186,6 +189,7 @@ impl Options {
                 islands: false,
                 partition: false,
                 growth: false,
+                sweep: false,
                 edges: false,
                 cross_validation: false,
                 max_passes: 150,

@@ -57,6 +57,8 @@ pub(super) struct Evidence<'a> {
     pub surface: Option<Polynomials>,
     /// Whether smoothness acts only on what departs from them, rather than on how depth bends about its own slope.
     pub departing: bool,
+    /// Whether T keeps how much of ρ shows (`motion/joint.rs`).
+    pub keeps_shown: bool,
     /// Whether the region is a body, which is seen from outside.
     pub body: bool,
 }

@@ -18,6 +18,7 @@ mod rivalry;
 mod schedule;
 mod single_scale;
 mod stiffness;
+mod sweep;
 mod weights;
 
 pub use history::Status;

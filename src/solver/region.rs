@@ -127,6 +127,7 @@ impl Region {
             surface: evidence.surface.as_ref(),
             rotation_prior: evidence.rotation_prior(),
             kind: self.kind,
+            keeps_shown: evidence.keeps_shown,
             longest: evidence.longest(),
         }
         .solve(&self.motion);

@@ -34,6 +34,9 @@ const EXCUSING: usize = 2;
 const RELIGHTING: usize = 2;
 /// Passes in which T is looked for over all directions.
 const SEARCHING: usize = 2;
+/// The passes with depth in which depths are swept: on the first scale, where T has to be found before; on later ones;
+/// and once more when curves have settled.
+const SWEEPING: [usize; 3] = [SEARCHING + 2, 1, THRESHOLD_PASSES];
 /// Depths of relief that a full motion is tried with; only the first two, its mirror image and a deeper one,
 /// where depth has been found on a coarser scale: what is coarse looks flat.
 const RELIEFS: [f64; 5] = [-1.0, 2.0, 0.4, -2.0, -0.4];
@@ -120,6 +123,18 @@ impl Schedule {
             PASSES[0]
         } - CHOOSING;
         self.on_bodies && self.level == self.start && self.deep().is_none_or(|deep| deep <= last)
+    }
+
+    /// Whether depth that is refuted is sought anew.
+    pub fn sweeps(&self) -> bool {
+        let [first, later, settled] = SWEEPING;
+        let due = if self.level == self.start {
+            first
+        } else {
+            later
+        };
+        let deep = self.deep();
+        deep == Some(due) || self.level == 0 && deep == Some(settled)
     }
 
     /// Whether regions are where they should be, to the pixel.

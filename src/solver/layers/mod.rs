@@ -196,6 +196,8 @@ impl Layers {
             window,
             surface: Polynomials::over(&owned, if departing { 3 } else { 2 }),
             departing,
+            // Not before: long steps keep it to first order only.
+            keeps_shown: k == 0 && self.schedule.settled(),
             body: k > 0,
             withheld,
             owned,

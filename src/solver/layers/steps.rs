@@ -12,6 +12,7 @@ use crate::options::{MotionMethod, Options};
 use crate::solver::approach::Approach;
 use crate::solver::composition::{Layer, composed};
 use crate::solver::region::Region;
+use crate::solver::sweep::swept;
 use crate::solver::weights::Weights;
 use crate::solver::{choice, rivalry, stiffness};
 use crate::warp::pyramid;
@@ -74,7 +75,12 @@ impl Approach for Layers {
             } else {
                 1
             };
+            let sweeps = options.sweep && self.schedule.sweeps();
             self.each_region(options, |region, evidence, prior| {
+                if sweeps && region.kind.translates() && !evidence.body {
+                    region.rho = swept(region, evidence);
+                    region.normalise(&evidence.owned);
+                }
                 if learns {
                     region.stiffness = stiffness::foretelling(region, evidence, prior);
                 }
