@@ -8,9 +8,9 @@
 //! ρj = ρ̄j − Σ G a r/v / Σ G a²/v     ρ̄j = 1/Z of planes at equal steps of image motion
 //! ```
 //!
-//! χ² is the robust misfit of a pixel in units of its variance v, r its residual, a = ∂r/∂ρ, and G a Gaussian over the
-//! region's own pixels. A pixel that leaves the frame is neither explained nor refuted. One sweep; what it finds is a
-//! start for steps of depth, not more exact than these are.
+//! χ² is the robust misfit of a pixel in units of its variance v, that of a hidden one where it leaves the frame, r its
+//! residual, a = ∂r/∂ρ, and G a Gaussian over the region's own pixels. One sweep; what it finds is where steps of depth
+//! go on from.
 
 use super::evidence::Evidence;
 use super::region::{RHO_RANGE, Region};
