@@ -268,6 +268,34 @@ fn variants_keep_their_promises() {
 }
 
 #[test]
+fn what_is_filmed_in_passing_is_one_scene_whose_depth_leaps() {
+    for base in ["blocks", "carousel"] {
+        for seed in 0..4 {
+            let sequence = scene::passing(base, seed, 0.0, 4.0, 120, 90).expect("a scene");
+            let (truth, what) = (&sequence.truth, &sequence.name);
+            assert_eq!(truth.regions(), 1, "{what}");
+            assert!(sequence.curves.is_empty(), "{what}");
+            let fastest = pixels(&sequence)
+                .map(|at| truth.flow.u[at].hypot(truth.flow.v[at]))
+                .fold(0.0, f32::max);
+            let ratio = f64::from(fastest) / 4.0 * 320.0 / 120.0;
+            assert!((0.9..1.2).contains(&ratio), "{what}: {ratio}");
+            // Beside an edge of a body what is behind is nearly twice as far, or more.
+            let leaps = pixels(&sequence)
+                .filter(|&(x, _)| x > 0)
+                .filter(|&(x, y)| {
+                    let ratio = truth.depth[(x, y)] / truth.depth[(x - 1, y)];
+                    !(1.0 / 1.8..1.8).contains(&ratio)
+                })
+                .count();
+            assert!(leaps > 40, "{what}: {leaps}");
+            let (still, warped) = differences(&sequence);
+            assert!(warped < 6.0 && warped < still, "{what}: {warped}, {still}");
+        }
+    }
+}
+
+#[test]
 fn noise_has_the_strength_asked_for() {
     let render = |sigma| scene::variant("carousel", 9, sigma, 2.0, 96, 72).expect("a variant");
     let (clean, noisy) = (render(0.0), render(6.0));

@@ -9,17 +9,18 @@ use crate::cases::SEED;
 
 /// What `--help` prints.
 pub const HELP: &str = "\
-npm run accuracy -- [NAME…] [--preset best|paper] [--seed N] [--tsv FILE] [--data DIR]
-npm run accuracy -- --levers [NAME…] [--seed N]
+npm run accuracy -- [NAME…] [--preset best|paper] [--seed N] [--passing] [--tsv FILE] [--data DIR]
+npm run accuracy -- --levers [NAME…] [--seed N] [--passing]
 npm run accuracy -- --starts [NAME…] [--preset best|paper] [--seed N]
-npm run accuracy -- --auto|--find|--focal|--bounds [NAME…] [--seed N]
-npm run accuracy -- --export DIR [NAME…] [--seed N]
+npm run accuracy -- --auto|--find|--focal|--bounds [NAME…] [--seed N] [--passing]
+npm run accuracy -- --export DIR [NAME…] [--seed N] [--passing]
 
 Solves the built-in sequences and 20 random variants, and says how far each result is from the truth.
 
 NAME          only these: blocks, carousel-1003, …
 --preset      only this preset
 --seed N      draw the variants from the seeds N to N+19 instead of 1000 to 1019
+--passing     variants that stand still and are filmed in passing, with no curve drawn; nothing built in
 --tsv FILE    write name, preset, AEE and labels wrong as well
 --data DIR    solve the recorded sequences in DIR as well
 --levers      what each option of `best` is worth: it is switched off alone
@@ -65,6 +66,8 @@ pub struct Asked {
     pub presets: Vec<Preset>,
     /// The first variant's seed.
     pub seed: u64,
+    /// Whether variants stand still and are filmed in passing.
+    pub passing: bool,
     /// Where to write figures for other programs.
     pub tsv: Option<PathBuf>,
     /// Where recorded sequences are.
@@ -79,6 +82,7 @@ impl Asked {
             names: Vec::new(),
             presets: Preset::ALL.to_vec(),
             seed: SEED,
+            passing: false,
             tsv: None,
             data: None,
         };
@@ -95,6 +99,7 @@ impl Asked {
                 "--find" => asked.work = Work::Automatic { solving: false },
                 "--focal" => asked.work = Work::Focal,
                 "--bounds" => asked.work = Work::Bounds,
+                "--passing" => asked.passing = true,
                 "--export" => asked.work = Work::Export(value()?.into()),
                 "--tsv" => asked.tsv = Some(value()?.into()),
                 "--data" => asked.data = Some(value()?.into()),

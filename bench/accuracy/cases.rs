@@ -23,8 +23,10 @@ const DISPLACEMENTS: [f64; 5] = [2.0, 4.0, 6.0, 9.0, 12.0];
 pub enum Case {
     /// One of [`scene::names`].
     BuiltIn(&'static str),
-    /// What [`scene::variant`] takes.
+    /// What [`scene::variant`] takes, or [`scene::passing`].
     Variant {
+        /// Whether all of it stands still and is filmed in passing.
+        passing: bool,
         /// "blocks" or "carousel".
         base: &'static str,
         /// Decides shapes, textures, lamp and motions.
@@ -44,8 +46,9 @@ impl Case {
 
     /// The variants whose seeds begin at `seed`. The two bases take turns; noise and displacement
     /// pass through their values at paces of their own, so that strong noise meets small motion too.
-    pub fn variants(seed: u64) -> Vec<Self> {
+    pub fn variants(seed: u64, passing: bool) -> Vec<Self> {
         let variant = |k: u64| Self::Variant {
+            passing,
             base: ["blocks", "carousel"][(k % 2) as usize],
             seed: seed.wrapping_add(k),
             noise: NOISES[(k / 2 % 5) as usize],
@@ -58,6 +61,12 @@ impl Case {
     pub fn name(&self) -> String {
         match self {
             Self::BuiltIn(name) => (*name).to_owned(),
+            Self::Variant {
+                passing: true,
+                base,
+                seed,
+                ..
+            } => format!("passing-{base}-{seed}"),
             Self::Variant { base, seed, .. } => format!("{base}-{seed}"),
         }
     }
@@ -73,11 +82,19 @@ impl Case {
         let sequence = match *self {
             Self::BuiltIn(name) => scene::render(name, width, height),
             Self::Variant {
+                passing,
                 base,
                 seed,
                 noise,
                 displacement,
-            } => scene::variant(base, seed, noise, displacement, width, height),
+            } => {
+                let draw = if passing {
+                    scene::passing
+                } else {
+                    scene::variant
+                };
+                draw(base, seed, noise, displacement, width, height)
+            }
         };
         Ok(sequence?)
     }

@@ -12,6 +12,7 @@ mod flight;
 mod head;
 mod lottery;
 mod noise;
+mod passing;
 mod solid;
 mod squares;
 mod stage;
@@ -30,6 +31,7 @@ use crate::interpretation::Interpretation;
 use cast::{Caster, Moment};
 use stage::Stage;
 
+pub use passing::passing;
 pub use variant::variant;
 
 /// Two frames, the curves to start from, and the truth.

@@ -38,6 +38,19 @@ pub struct Hit {
 }
 
 impl Solid {
+    /// The same, `share` times as large; what has no end stays as it is.
+    pub fn scaled(self, share: f64) -> Self {
+        match self {
+            Solid::Cuboid(half) => Solid::Cuboid(half * share),
+            Solid::Ellipsoid(radii) => Solid::Ellipsoid(radii * share),
+            Solid::Cylinder { radius, half } => Solid::Cylinder {
+                radius: radius * share,
+                half: half * share,
+            },
+            Solid::Floor | Solid::Terrain(_) => self,
+        }
+    }
+
     /// The first meeting of the ray o + t d with t > 0, o outside the solid. Marching through terrain
     /// starts at `from`, which a caller who knows that nothing is nearer sets above 0.
     pub fn hit(&self, o: DVec3, d: DVec3, from: f64) -> Option<Hit> {

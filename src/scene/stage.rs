@@ -33,6 +33,16 @@ pub struct Part {
     pub body: usize,
 }
 
+impl Part {
+    /// Brings it `times` nearer along its line of sight, so that it looks as before.
+    pub fn bring_nearer(&mut self, times: f64) {
+        let share = times.recip();
+        self.pose.centre *= share;
+        self.solid = self.solid.clone().scaled(share);
+        self.material.texture.scale *= share;
+    }
+}
+
 /// What a surface looks like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {

@@ -12,7 +12,7 @@ use super::cast::{Caster, Moment};
 use super::dice::Dice;
 use super::lottery::{Course, draw};
 use super::stage::Stage;
-use super::{Sequence, blocks, camera, carousel, sequence, truth};
+use super::{Entry, Sequence, blocks, camera, carousel, sequence, truth};
 use crate::camera::{Camera, RigidMotion};
 use crate::error::Error;
 use crate::grid::Grid;
@@ -51,50 +51,90 @@ pub fn variant(
     width: usize,
     height: usize,
 ) -> Result<Sequence, Error> {
-    let (entry, many) = match base {
-        "blocks" => (blocks::ENTRY, false),
-        "carousel" => (carousel::ENTRY, true),
-        _ => {
-            return Err(Error::Choice {
-                what: "sequence with variants".to_owned(),
-                value: base.to_owned(),
-                choices: "blocks, carousel".to_owned(),
-            });
-        }
-    };
-    check("noise", f64::from(noise_sigma), 0.0, MOST_NOISE)?;
-    check("displacement", displacement, 0.1, MOST_DISPLACEMENT)?;
-    let camera = camera(base, width, height)?;
-    // Another stream for each base, and another for the noise.
-    let mut dice = Dice::new(seed ^ if many { 0x6361_726f } else { 0x626c_6f63 });
-    let mut noise = Dice::new(dice.bits());
-    let (mut stage, mut courses) = draw(&mut dice, many);
-    let mut draws = 1;
-    while !set_motion(&mut stage, &courses, displacement) && draws < DRAWS {
-        (stage, courses) = draw(&mut dice, many);
-        draws += 1;
-    }
-    let pictures = [Moment::First, Moment::Second].map(|moment| {
-        let mut picture = Caster::new(&stage, camera, moment).picture(width, height);
-        for colour in &mut picture {
-            let error = noise_sigma * noise.normal() as f32;
-            *colour = colour.map(|c| (c + error).round().clamp(0.0, 255.0));
-        }
-        picture
-    });
-    let made = sequence(&entry, &stage, camera, width, height, &pictures);
+    let drawn = Drawn::new(base, seed, noise_sigma, displacement, [width, height])?;
     Ok(Sequence {
         name: format!("{base}-{seed}"),
-        title: format!("{}, variant {seed}", entry.title),
+        title: format!("{}, variant {seed}", drawn.entry.title),
         lesson: format!(
             "Drawn at random: {displacement} pixels of motion at most, noise of {noise_sigma} grey levels."
         ),
-        ..made
+        ..drawn.filmed()
     })
 }
 
+/// A stage drawn from a seed, with all that filming it takes.
+pub(super) struct Drawn {
+    pub entry: Entry,
+    pub stage: Stage,
+    /// What else is drawn for it.
+    pub dice: Dice,
+    noise: Dice,
+    noise_sigma: f32,
+    camera: Camera,
+    size: [usize; 2],
+}
+
+impl Drawn {
+    /// The stage of the variant of `base` that `seed` decides, of `size` columns and rows; the rest as [`variant`] has it.
+    pub fn new(
+        base: &str,
+        seed: u64,
+        noise_sigma: f32,
+        displacement: f64,
+        size: [usize; 2],
+    ) -> Result<Self, Error> {
+        let (entry, many) = match base {
+            "blocks" => (blocks::ENTRY, false),
+            "carousel" => (carousel::ENTRY, true),
+            _ => {
+                return Err(Error::Choice {
+                    what: "sequence with variants".to_owned(),
+                    value: base.to_owned(),
+                    choices: "blocks, carousel".to_owned(),
+                });
+            }
+        };
+        check("noise", f64::from(noise_sigma), 0.0, MOST_NOISE)?;
+        check("displacement", displacement, 0.1, MOST_DISPLACEMENT)?;
+        let camera = camera(base, size[0], size[1])?;
+        // Another stream for each base, and another for the noise.
+        let mut dice = Dice::new(seed ^ if many { 0x6361_726f } else { 0x626c_6f63 });
+        let noise = Dice::new(dice.bits());
+        let (mut stage, mut courses) = draw(&mut dice, many);
+        let mut draws = 1;
+        while !set_motion(&mut stage, &courses, displacement) && draws < DRAWS {
+            (stage, courses) = draw(&mut dice, many);
+            draws += 1;
+        }
+        Ok(Self {
+            entry,
+            stage,
+            dice,
+            noise,
+            noise_sigma,
+            camera,
+            size,
+        })
+    }
+
+    /// The stage as filmed, under its base's name.
+    pub fn filmed(mut self) -> Sequence {
+        let [width, height] = self.size;
+        let pictures = [Moment::First, Moment::Second].map(|moment| {
+            let mut picture = Caster::new(&self.stage, self.camera, moment).picture(width, height);
+            for colour in &mut picture {
+                let error = self.noise_sigma * self.noise.normal() as f32;
+                *colour = colour.map(|c| (c + error).round().clamp(0.0, 255.0));
+            }
+            picture
+        });
+        let Self { entry, stage, .. } = &self;
+        sequence(entry, stage, self.camera, width, height, &pictures)
+    }
+}
+
 /// Gives every body its motion, and says whether the draw is fit to be used.
-fn set_motion(stage: &mut Stage, courses: &[Course], displacement: f64) -> bool {
+pub(super) fn set_motion(stage: &mut Stage, courses: &[Course], displacement: f64) -> bool {
     let (w, h) = SKETCH;
     let per = w as f64 / STATED_WIDTH;
     let Ok(camera) = Camera::centred(w as f64, w, h) else {
