@@ -58,7 +58,8 @@ pub(super) fn swept(region: &Region, evidence: &Evidence) -> Grid<f32> {
     rho
 }
 
-/// The difference in ρ that moves the image by [`SPACING`]; `None` where depth moves nothing.
+/// The difference in ρ that moves the image by [`SPACING`]; `None` where depths up to the mean
+/// move it by less, as those of a background that stands still: nothing is a period of texture away there.
 fn spacing(region: &Region, evidence: &Evidence) -> Option<f32> {
     let [far, near] = [RHO_RANGE[0], 1.0].map(|rho| evidence.linearise(&level(region, rho)));
     let inside = (0..far.flow.len()).filter(|&i| far.inside.data()[i] && near.inside.data()[i]);
@@ -67,7 +68,7 @@ fn spacing(region: &Region, evidence: &Evidence) -> Option<f32> {
         (near[0] - far[0]).hypot(near[1] - far[1])
     });
     let most = moves.fold(0.0, f32::max);
-    (most > 0.0).then(|| SPACING * (1.0 - RHO_RANGE[0]) / most)
+    (most > SPACING).then(|| SPACING * (1.0 - RHO_RANGE[0]) / most)
 }
 
 /// The region as a frontal plane.
