@@ -14,12 +14,13 @@
 //! be explained. The d ln n is Schwarz's (1978), the 2p Akaike's. b = [`HOLLOW`] for a body whose surface is
 //! hollow (`depth/hollow.rs`), else 0: bodies are seen from outside. A simpler kind is taken when its C is
 //! within `max( Σ (δ‖∇I‖)²/v, ν n ) / 2 n0` of the least: what image motion off by δ = [`INTERPOLATION`]
-//! everywhere costs, or a variance off by the share ν = [`UNSURE`], since interpolated frames do not tell motions
-//! apart that differ by less, nor is a region without shadows and strangers, however many pixels there are.
+//! everywhere costs, or, beside other regions, a variance off by the share ν = [`UNSURE`], since interpolated frames do
+//! not tell motions apart that differ by less, nor is a region without shadows and strangers then, however many pixels
+//! there are.
 //!
 //! A narrow view hardly tells a deep relief that turns little from a shallow one that turns much, nor from
 //! its mirror image, whose surface bends the other way. Full motion is therefore fitted from several depths of relief,
-//! of which the best counts.
+//! and from the translation that was found, which is one without ω; the best counts.
 
 use crate::depth::{FieldPrior, hollow};
 use crate::motion::Kind;
@@ -60,12 +61,21 @@ pub(super) fn chosen(
         start.become_kind(kind, evidence, prior);
         start
     };
-    let full = of_best_relief(&of_kind(Kind::Full), evidence, prior, reliefs);
-    let mut fits: Vec<Fit> = [Kind::Still, Kind::Rotation, Kind::Translation]
+    let goes_on = |fit: Fit| fitted(fit.region, STEPS[2]);
+    let [still, rotation, translation] = [Kind::Still, Kind::Rotation, Kind::Translation]
+        .map(|kind| goes_on(fitted(of_kind(kind), STEPS[0])));
+    let freed = Region {
+        kind: Kind::Full,
+        ..translation.region.clone()
+    };
+    let full = [
+        of_best_relief(&of_kind(Kind::Full), evidence, prior, reliefs),
+        fitted(freed, STEPS[1]),
+    ];
+    let full = full.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
+    let mut fits: Vec<Fit> = [still, rotation, translation]
         .into_iter()
-        .map(|kind| fitted(of_kind(kind), STEPS[0]))
-        .chain([full])
-        .map(|fit| fitted(fit.region, STEPS[2]))
+        .chain(full.map(goes_on))
         .collect();
     let least = fits.iter().map(|f| f.cost).fold(f64::INFINITY, f64::min);
     let enough = least + untold(region, evidence);
@@ -116,7 +126,7 @@ fn fitted(mut region: Region, evidence: &Evidence, prior: &FieldPrior, steps: us
     Fit { region, cost }
 }
 
-/// What image motion off by δ or noise off by ν costs, whichever is more.
+/// What image motion off by δ or, beside other regions, noise off by ν costs, whichever is more.
 fn untold(region: &Region, evidence: &Evidence) -> f64 {
     let line = evidence.linearise(region);
     let gradients = line.gradient.data().iter().zip(evidence.owned.data());
@@ -126,7 +136,8 @@ fn untold(region: &Region, evidence: &Evidence) -> f64 {
         position += f64::from(own) * steep / evidence.variance(ix, iy);
         pixels += f64::from(own);
     }
-    let most = (INTERPOLATION * INTERPOLATION * position).max(UNSURE * pixels);
+    let unsure = if evidence.alone { 0.0 } else { UNSURE };
+    let most = (INTERPOLATION * INTERPOLATION * position).max(unsure * pixels);
     most / (2.0 * CORRELATED)
 }
 

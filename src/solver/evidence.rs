@@ -59,6 +59,8 @@ pub(super) struct Evidence<'a> {
     pub departing: bool,
     /// Whether T keeps how much of ρ shows (`motion/joint.rs`).
     pub keeps_shown: bool,
+    /// Whether the region is all there is.
+    pub alone: bool,
     /// Whether the region is a body, which is seen from outside.
     pub body: bool,
 }

@@ -198,6 +198,7 @@ impl Layers {
             departing,
             // Not before: long steps keep it to first order only.
             keeps_shown: k == 0 && self.schedule.settled(),
+            alone: self.regions.len() == 1,
             body: k > 0,
             withheld,
             owned,
