@@ -162,7 +162,7 @@ impl Options {
                 sweep: true,
                 edges: true,
                 cross_validation: true,
-                max_passes: 40,
+                max_passes: 60,
                 preset,
                 ..Self::preset(Preset::Paper)
             },

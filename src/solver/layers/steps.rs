@@ -21,7 +21,8 @@ use crate::warp::pyramid;
 /// not stand still. Not for the background: its depth may leap where no curve is, and T, followed to the end, goes after
 /// what no surface explains.
 const JOINT_STEPS: [usize; 2] = [2, 8];
-/// Steps of depth alone where motions are held: as many as depth has in a pass in which they are not.
+/// Steps of depth alone where motions are held, as many as depth has in a pass in which they are not, and where depth has
+/// been swept, which leaves it rough.
 const DEPTH_STEPS: usize = JOINT_STEPS[0] + 1;
 /// Pixels by which a region grows when all curves move to the least partition.
 const REACH: f32 = 1.0;
@@ -70,12 +71,12 @@ impl Approach for Layers {
     fn find_depth(&mut self, options: &Options) {
         if self.schedule.deep().is_some() {
             let learns = options.mu.is_none() && self.schedule.learns();
-            let steps = if self.schedule.rests() {
+            let sweeps = options.sweep && self.schedule.sweeps();
+            let steps = if sweeps || self.schedule.rests() {
                 DEPTH_STEPS
             } else {
                 1
             };
-            let sweeps = options.sweep && self.schedule.sweeps();
             self.each_region(options, |region, evidence, prior| {
                 if sweeps && region.kind.translates() && !evidence.body {
                     region.rho = swept(region, evidence);
