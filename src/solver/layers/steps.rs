@@ -72,7 +72,9 @@ impl Approach for Layers {
         if self.schedule.deep().is_some() {
             let learns = options.mu.is_none() && self.schedule.learns();
             let sweeps = options.sweep && self.schedule.sweeps();
-            let steps = if sweeps || self.schedule.rests() {
+            // Not on the first scale: depth that follows anything would take what curves are still to take.
+            let refined = self.schedule.level < self.schedule.start;
+            let steps = if sweeps && refined || self.schedule.rests() {
                 DEPTH_STEPS
             } else {
                 1
