@@ -1,10 +1,11 @@
-//! One scene whose depth leaps where no curve is drawn: a pillar before a wall, filmed in passing.
+//! Depth that leaps where no curve is drawn, filmed in passing: a pillar before a wall, and scenes drawn by lot.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use glam::{DMat3, DVec3};
-use relievo::{Camera, Frame, FramePair, Grid, Interpretation, Options, Solver, Status};
+use relievo::motion::Kind;
+use relievo::{Camera, Frame, FramePair, Grid, Interpretation, Options, Solver, Status, scene};
 
 const W: usize = 160;
 const H: usize = 120;
@@ -72,16 +73,17 @@ fn passing(shift: DVec3, rotation: DVec3) -> Passing {
     }
 }
 
-fn solved(scene: &Passing, sweep: bool) -> Interpretation {
-    let [first, second] = scene.frames.clone();
+fn solved(frames: &[Frame; 2], camera: Camera, options: Options) -> Solver {
+    let [first, second] = frames.clone();
     let pair = FramePair::new(first, second).unwrap();
-    let options = Options {
-        sweep,
-        ..Options::default()
-    };
-    let mut solver = Solver::new(pair, scene.camera, &[], options).unwrap();
+    let mut solver = Solver::new(pair, camera, &[], options).unwrap();
     while solver.step() == Status::Running {}
-    solver.interpretation()
+    solver
+}
+
+/// Angle between two translations, in degrees.
+fn angle(found: &Interpretation, t: DVec3) -> f64 {
+    found.motions[0].translation.angle_between(t).to_degrees()
 }
 
 /// Share of pixels whose ρ is off by more than a fifth of the leap, and the least-squares slope of ρ found on ρ true;
@@ -111,17 +113,41 @@ fn compared(found: &Interpretation, scene: &Passing) -> (f64, f64) {
 #[test]
 fn a_pillar_stands_before_its_wall_once_depths_are_swept() {
     let scene = passing(DVec3::new(-0.06, 0.01, 0.04), DVec3::new(0.0, 0.004, 0.002));
+    let with = |sweep| {
+        let options = Options {
+            sweep,
+            ..Options::default()
+        };
+        solved(&scene.frames, scene.camera, options)
+    };
     // The pillar moves by more than half a period of its paint otherwise than the wall's depth says.
-    let (off, relief) = compared(&solved(&scene, false), &scene);
+    let (off, relief) = compared(&with(false).interpretation(), &scene);
     assert!(off > 0.5 && relief < 0.5, "{off}, {relief} without a sweep");
-    let found = solved(&scene, true);
+    let found = with(true).interpretation();
     let (off, relief) = compared(&found, &scene);
     assert!(off < 0.05, "{off} of the pixels are off by much");
     assert!((relief - 1.0).abs() < 0.1, "{relief} of the relief");
-    let angle = found.motions[0].translation.angle_between(scene.shift);
-    assert!(
-        angle.to_degrees() < 1.0,
-        "T is off by {}°",
-        angle.to_degrees()
-    );
+    let angle = angle(&found, scene.shift);
+    assert!(angle < 1.0, "T is off by {angle}°");
+}
+
+#[test]
+fn what_a_sweep_leaves_rough_is_smoothed_in_the_same_pass() {
+    let drawn = scene::passing("carousel", 9, 2.0, 8.0, W, H).unwrap();
+    let solver = solved(&drawn.frames, drawn.truth.camera, Options::default());
+    let finest = *solver.report().refined.last().unwrap();
+    let energies = &solver.history()[finest..];
+    let most = energies.iter().copied().fold(0.0, f64::max);
+    assert!(most < 4.0 * energies[0], "{energies:?}");
+}
+
+#[test]
+fn a_camera_that_turns_a_little_in_passing_is_not_said_to_shift_alone() {
+    for noise in [1.0, 3.0] {
+        let drawn = scene::passing("carousel", 7, noise, 4.0, W, H).unwrap();
+        let solver = solved(&drawn.frames, drawn.truth.camera, Options::default());
+        assert_eq!(solver.report().regions[0].kind, Kind::Full, "{noise}");
+        let off = angle(&solver.interpretation(), drawn.truth.motions[0].translation);
+        assert!(off < 4.0, "T is {off}° off in noise of {noise}");
+    }
 }
