@@ -392,3 +392,65 @@ fn the_relief_shows_a_bump_by_light_alone() {
     let light = |x: usize, y: usize| u32::from(picture[(x, y)][1]);
     assert!(light(19, 11) > light(29, 21) + 30);
 }
+
+/// One region of `width × height` pixels whose 1/Z at (x, y) is `rho`, and a frame to it.
+fn surface(width: usize, height: usize, rho: impl Fn(f32, f32) -> f32) -> (Frame, Interpretation) {
+    let grid = |value: f32| Grid::new(width, height, value);
+    let found = Interpretation {
+        camera: Camera::centred(width as f64, width, height).unwrap(),
+        labels: Grid::new(width, height, 0),
+        depth: Grid::from_fn(width, height, |x, y| 1.0 / rho(x as f32, y as f32)),
+        flow: Flow {
+            u: grid(1.0),
+            v: grid(0.0),
+        },
+        confidence: grid(1.0),
+        occluded: Grid::new(width, height, 0),
+        motions: vec![RigidMotion::default()],
+    };
+    (Frame::from_grey(grid(128.0)).unwrap(), found)
+}
+
+#[test]
+fn a_floor_that_reaches_far_is_drawn_as_a_floor_no_deeper_than_wide() {
+    // ρ of a plane is linear in the frame: this one reaches from 1 to 19 times as far.
+    let (frame, found) = surface(80, 60, |_, y| 0.05 + 0.9 * y / 59.0);
+    let m = mesh(&frame, &found, &ViewParams::default());
+    let at = |i: usize| glam::Vec3::from_slice(&m.positions[3 * i..3 * i + 3]);
+    let (a, b, c) = (at(0), at(79), at(80 * 59));
+    let normal = (b - a).cross(c - a).normalize();
+    let depths: Vec<f32> = (0..80 * 60).map(|i| at(i).z).collect();
+    for i in 0..80 * 60 {
+        let off = (at(i) - a).dot(normal);
+        assert!(off.abs() < 1e-3, "vertex {i} is {off} off the plane");
+    }
+    let most = depths.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let least = depths.iter().copied().fold(f32::INFINITY, f32::min);
+    assert!(
+        (1.4..2.0).contains(&(most - least)),
+        "{} deep",
+        most - least
+    );
+    assert!(depths[80 * 59] > depths[0], "near is towards the viewer");
+}
+
+#[test]
+fn the_surface_is_torn_where_depth_leaps_over_some_pixels_and_not_where_it_bulges() {
+    let joins = |near: f32| {
+        // A pillar whose edges are spread over six pixels.
+        let (frame, found) = surface(160, 120, |x, _| {
+            1.0 + (near - 1.0) * ((36.0 - (x - 80.0).abs()) / 6.0).clamp(0.0, 1.0)
+        });
+        let m = mesh(&frame, &found, &ViewParams::default());
+        let from = |t: &[u32]| {
+            let sum: f32 = t.iter().map(|&i| m.uvs[2 * i as usize]).sum();
+            (160.0 * sum / 3.0 - 80.5).abs()
+        };
+        let triangles = m.indices.chunks_exact(3);
+        triangles
+            .filter(|t| (31.5..34.5).contains(&from(t)))
+            .count()
+    };
+    assert_eq!(joins(3.0), 0, "near and far are joined");
+    assert!(joins(1.1) > 500, "a bulge is torn");
+}

@@ -1,28 +1,21 @@
 //! The depth map as a surface of triangles.
 //!
 //! Vertices lie on the rays of their pixels at the depth found, x to the right, y up, z towards the
-//! viewer, moved and scaled into a box of about −1 to 1 in x or y. The surface is cut along the borders
-//! of regions, half-way between pixels, without skirts, and where depth tears. A region whose depth is
+//! viewer, in a box of about −1 to 1 in x or y (`foreshortening.rs`). The surface is cut along the borders
+//! of regions, half-way between pixels, without skirts, and where depth leaps (`tears.rs`). A region whose depth is
 //! nowhere observable is flat, and if it is the background, behind all others.
 
 use glam::{Vec2, Vec3};
 
 use super::ViewParams;
-use super::span::{OBSERVABLE, Span, percentile};
+use super::foreshortening::boxed;
+use super::span::{OBSERVABLE, Span};
+use super::tears::{Corner, leaps, torn};
 use crate::frames::Frame;
 use crate::interpretation::Interpretation;
 
 /// Vertices aimed at when the step is chosen automatically.
 const VERTICES: usize = 90_000;
-/// A triangle is a tear, not a surface, when it is steeper than this (depth over width, as drawn) and
-/// spans more than this depth in the box: the wall beside a nose stays, the one behind a hill goes.
-const STEEPEST: f32 = 4.0;
-const HIGHEST: f32 = 0.15;
-/// The depth drawn, as a share of the width, between which it is left as it is.
-const SHALLOWEST: f32 = 0.35;
-const DEEPEST: f32 = 0.8;
-/// Shallow reliefs are deepened by no more than this: past it, one would look at noise.
-const MOST: f32 = 3.0;
 /// Share of a region's pixels that must have observable depth for it to have a relief.
 const LEAST_KNOWN: f32 = 0.02;
 
@@ -89,7 +82,7 @@ pub fn mesh(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Mesh 
             builder.cell(places, vertices);
         }
     }
-    builder.finish(params)
+    builder.finish(params, [columns.len(), rows.len()])
 }
 
 /// How a region is drawn.
@@ -206,44 +199,26 @@ impl Builder<'_> {
         }
     }
 
-    fn finish(mut self, params: &ViewParams) -> Mesh {
+    fn finish(mut self, params: &ViewParams, corners: [usize; 2]) -> Mesh {
         let m = &mut self.mesh;
         let mut points: Vec<Vec3> = m.positions.chunks_exact(3).map(Vec3::from_slice).collect();
-        let mut depths: Vec<f32> = points.iter().map(|p| -p.z).collect();
-        let at = |depths: &mut Vec<f32>, q| percentile(depths, q).unwrap_or(1.0);
-        let (near, middle, far) = (
-            at(&mut depths, 0.02),
-            at(&mut depths, 0.5),
-            at(&mut depths, 0.98),
-        );
-        // The frame's size at the middle depth; the box is half of the longer side.
-        let side = self.frame.width().max(self.frame.height()) as f32;
-        let across = side * middle / self.found.camera.focal as f32;
-        let ratio = (far - near) / across;
-        let automatic = if ratio < SHALLOWEST {
-            (SHALLOWEST / ratio.max(1e-6)).min(MOST)
-        } else {
-            (DEEPEST / ratio).min(1.0)
+        let depth: Vec<f32> = points.iter().map(|p| -p.z).collect();
+        let leaps = leaps(&depth, &m.labels, corners);
+        let (width, height) = (self.frame.width() as f32, self.frame.height() as f32);
+        let side = width.max(height);
+        let deepen = params.relief.map(|r| r as f32);
+        boxed(&mut points, side / self.found.camera.focal as f32, deepen);
+        let corner = |i: u32| {
+            let i = i as usize;
+            Corner {
+                place: 2.0 / side * Vec2::new(width * m.uvs[2 * i], height * m.uvs[2 * i + 1]),
+                depth: points[i].z,
+                leaps: leaps.get(i).copied().unwrap_or(false),
+            }
         };
-        let deepen = params.relief.map_or(automatic, |r| r as f32);
-        let origin = Vec3::new(0.0, 0.0, -(near + far) / 2.0);
-        for p in &mut points {
-            *p = (*p - origin) * Vec3::new(1.0, 1.0, deepen) * 2.0 / across;
-        }
-        let steep = |t: &[u32]| {
-            let [a, b, c] = [t[0], t[1], t[2]].map(|i| points[i as usize]);
-            [(a, b), (b, c), (c, a)].iter().any(|(p, q)| {
-                let across = (*p - *q).truncate().length();
-                (p.z - q.z).abs() > HIGHEST.max(STEEPEST * across)
-            })
-        };
-        m.indices = m
-            .indices
-            .chunks_exact(3)
-            .filter(|t| !steep(t))
-            .flatten()
-            .copied()
-            .collect();
+        let whole = |t: &&[u32]| !torn([t[0], t[1], t[2]].map(corner));
+        let kept = m.indices.chunks_exact(3).filter(whole);
+        m.indices = kept.flatten().copied().collect();
         let mut normals = vec![Vec3::ZERO; points.len()];
         for t in m.indices.chunks_exact(3) {
             let [a, b, c] = [t[0], t[1], t[2]].map(|i| i as usize);

@@ -9,6 +9,7 @@ mod arrows;
 mod colour;
 mod depth;
 mod flow;
+mod foreshortening;
 mod mask;
 mod mesh;
 mod palette;
@@ -19,6 +20,7 @@ mod segmentation;
 mod span;
 mod stereo;
 mod stroke;
+mod tears;
 
 pub use anaglyph::{GLASSES, Glasses, anaglyph, dubois};
 pub use arrows::arrows;
