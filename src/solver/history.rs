@@ -1,7 +1,7 @@
 //! The passes that a solver has made, and whether it goes on. It stops as
 //! - *converged* when, for three passes running, at most `tolerance` of all pixels change region and
-//!   the energy is within a thousandth of what it was one or two passes before, since depth may step to and fro, and
-//!   nothing more is due,
+//!   the energy changes by less than a thousandth, and nothing more is due; where motions are held it may as well come
+//!   back to what it was two passes before, since depth may step to and fro for ever,
 //! - *exhausted* (out of iterations) after `max_passes` since the curves were drawn,
 //! - *diverged* when the energy is no longer a finite number.
 
@@ -65,10 +65,11 @@ impl Stage {
 }
 
 impl History {
-    /// Enters a pass after which the energy is so much, and in which that share of all pixels has changed region;
+    /// Enters a pass of `stage` after which the energy is so much, and in which that share of all pixels has changed region;
     /// whether all has stood still for long enough.
-    pub fn enter(&mut self, energy: f64, changed: f64, tolerance: f64) -> bool {
-        let mut before = self.energies.iter().rev().take(2);
+    pub fn enter(&mut self, energy: f64, changed: f64, stage: Stage, tolerance: f64) -> bool {
+        let passes = if stage.rests { 2 } else { 1 };
+        let mut before = self.energies.iter().rev().take(passes);
         let level = before.any(|e| (e - energy).abs() <= STILL_ENERGY * e.abs());
         self.still = if level && changed <= tolerance {
             self.still + 1

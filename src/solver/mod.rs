@@ -105,8 +105,10 @@ impl Solver {
         let after = self.approach.labels();
         let changed = before.data().iter().zip(after.data());
         let changed = changed.filter(|(a, b)| a != b).count() as f64 / before.len() as f64;
-        let still = self.history.enter(energy, changed, self.options.tolerance);
         let stage = Stage::of(&*self.approach);
+        let still = self
+            .history
+            .enter(energy, changed, stage, self.options.tolerance);
         let more = self.approach.end_pass(still, &self.options);
         self.history.leave(stage, Stage::of(&*self.approach), more);
         self.status = self.history.status(&self.options);

@@ -72,21 +72,23 @@ impl Approach for Layers {
         if self.schedule.deep().is_some() {
             let learns = options.mu.is_none() && self.schedule.learns();
             let sweeps = options.sweep && self.schedule.sweeps();
-            // Not on the first scale: depth that follows anything would take what curves are still to take.
+            let rests = self.schedule.rests();
+            // On the first scale depth that follows anything would take what curves are still to take.
             let refined = self.schedule.level < self.schedule.start;
-            let steps = if sweeps && refined || self.schedule.rests() {
-                DEPTH_STEPS
-            } else {
-                1
-            };
             self.each_region(options, |region, evidence, prior| {
-                if sweeps && region.kind.translates() && !evidence.body {
+                let sweeps = sweeps && region.kind.translates() && !evidence.body;
+                if sweeps {
                     region.rho = swept(region, evidence);
                     region.normalise(&evidence.owned);
                 }
                 if learns {
                     region.stiffness = stiffness::foretelling(region, evidence, prior);
                 }
+                let steps = if rests || sweeps && refined {
+                    DEPTH_STEPS
+                } else {
+                    1
+                };
                 for _ in 0..steps {
                     region.fit_depth(evidence, prior);
                     region.normalise(&evidence.owned);
