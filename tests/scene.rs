@@ -10,9 +10,7 @@ const W: usize = 96;
 const H: usize = 72;
 
 fn all() -> impl Iterator<Item = Sequence> {
-    scene::names()
-        .iter()
-        .map(|name| scene::render(name, W, H).expect(name))
+    scene::names().map(|name| scene::render(name, W, H).expect(name))
 }
 
 fn pixels(sequence: &Sequence) -> impl Iterator<Item = (usize, usize)> + use<> {
@@ -98,11 +96,8 @@ fn the_number_of_regions_is_as_announced() {
             .regions()
     };
     assert_eq!(
-        scene::names()
-            .iter()
-            .map(|name| regions(name))
-            .collect::<Vec<_>>(),
-        [3, 3, 2, 2, 1, 4]
+        scene::names().map(regions).collect::<Vec<_>>(),
+        [3, 3, 2, 2, 1, 1, 4]
     );
 }
 
@@ -181,8 +176,8 @@ fn motion_is_small_and_scales_with_the_picture() {
             (a / b - 1.0).abs() < 0.1,
             "{name}: {a} and {b} of the width"
         );
-        // Between a half and two pixels at a width of 320.
-        assert!((0.5..2.0).contains(&(320.0 * b)), "{name}: {}", 320.0 * b);
+        // Between a half and four pixels at a width of 320.
+        assert!((0.5..4.0).contains(&(320.0 * b)), "{name}: {}", 320.0 * b);
     }
 }
 
@@ -329,8 +324,7 @@ fn what_does_not_exist_is_refused() {
 
 #[test]
 fn the_catalogue_names_every_sequence() {
-    let names: Vec<_> = scene::catalogue().iter().map(|e| e.name).collect();
-    assert_eq!(names, scene::names());
+    assert!(scene::names().eq(scene::catalogue().iter().map(|e| e.name)));
     for entry in scene::catalogue() {
         let sequence = scene::render(entry.name, 16, 16).expect(entry.name);
         assert_eq!(

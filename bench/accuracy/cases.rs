@@ -41,7 +41,7 @@ pub enum Case {
 impl Case {
     /// Every built-in sequence.
     pub fn built_in() -> Vec<Self> {
-        scene::names().iter().copied().map(Self::BuiltIn).collect()
+        scene::names().map(Self::BuiltIn).collect()
     }
 
     /// The variants whose seeds begin at `seed`. The two bases take turns; noise and displacement

@@ -12,9 +12,10 @@ pub(super) const ENTRY: Entry = Entry {
     title: "Marble blocks",
     lesson: "Two blocks of the same marble as the floor: some of their edges cannot be seen, only \
              seen to move. Their shadows move over the still floor, which no rigid motion explains.",
+    stage,
 };
 
-pub(super) fn stage() -> Stage {
+fn stage() -> Stage {
     let marble = Texture {
         pattern: Pattern::Marble,
         colours: palette(0x8d8a86, 0xc9c2b6, 0x4a4f58),

@@ -14,9 +14,10 @@ pub(super) const ENTRY: Entry = Entry {
     title: "Turning bodies",
     lesson: "Four regions, and rotation at work: a turning body translates to one side and turns back, \
              and only both together tell its roundness.",
+    stage,
 };
 
-pub(super) fn stage() -> Stage {
+fn stage() -> Stage {
     let ground = Pose::ground(0.42, 6.4);
     let down = ground.direction(DVec3::Y);
     let texture = |pattern, colours, scale, seed| Texture {

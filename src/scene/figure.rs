@@ -12,9 +12,10 @@ pub(super) const ENTRY: Entry = Entry {
     title: "Toy bear",
     lesson: "One body with strong relief: muzzle, ears and bow tie stand out only if smoothing stops \
              at depth edges. Compare the two kinds of depth smoothing here.",
+    stage,
 };
 
-pub(super) fn stage() -> Stage {
+fn stage() -> Stage {
     let fur = Texture {
         pattern: Pattern::Mottle,
         colours: palette(0x5f3a1c, 0xa8743f, 0xe0b67e),

@@ -13,9 +13,10 @@ pub(super) const ENTRY: Entry = Entry {
     title: "Flight over hills",
     lesson: "No curve at all: the camera alone moves, and one rigid motion explains every pixel. \
              Depth runs from the slope below to the far ridge.",
+    stage,
 };
 
-pub(super) fn stage() -> Stage {
+fn stage() -> Stage {
     let land = Texture {
         pattern: Pattern::Mottle,
         colours: palette(0x455c2c, 0x8c8a52, 0xd0bd8a),

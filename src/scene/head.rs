@@ -12,9 +12,10 @@ pub(super) const ENTRY: Entry = Entry {
     title: "Head before a wall",
     lesson: "Cheeks and hair have almost no texture, so depth there is carried in from the features \
              around them; the wall's texture is strong. The head moves back, which shrinks it.",
+    stage,
 };
 
-pub(super) fn stage() -> Stage {
+fn stage() -> Stage {
     let skin = Texture {
         pattern: Pattern::Mottle,
         colours: palette(0xc98d6c, 0xd49a78, 0xdfa887),

@@ -6,6 +6,7 @@
 mod blocks;
 mod carousel;
 mod cast;
+mod columns;
 mod dice;
 mod figure;
 mod flight;
@@ -52,7 +53,7 @@ pub struct Sequence {
 }
 
 /// A sequence that can be rendered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Entry {
     /// What [`render`] calls it.
     pub name: &'static str,
@@ -60,38 +61,33 @@ pub struct Entry {
     pub title: &'static str,
     /// What it teaches.
     pub lesson: &'static str,
+    #[serde(skip)]
+    stage: fn() -> Stage,
 }
 
-const CATALOGUE: [Entry; 6] = [
+const CATALOGUE: [Entry; 7] = [
     squares::ENTRY,
     blocks::ENTRY,
     figure::ENTRY,
     head::ENTRY,
     flight::ENTRY,
+    columns::ENTRY,
     carousel::ENTRY,
 ];
-
-const NAMES: [&str; 6] = [
-    squares::ENTRY.name,
-    blocks::ENTRY.name,
-    figure::ENTRY.name,
-    head::ENTRY.name,
-    flight::ENTRY.name,
-    carousel::ENTRY.name,
-];
-
-/// The names of all built-in sequences.
-pub fn names() -> &'static [&'static str] {
-    &NAMES
-}
 
 /// All built-in sequences with their titles and lessons.
 pub fn catalogue() -> &'static [Entry] {
     &CATALOGUE
 }
 
+/// The names of all built-in sequences.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    CATALOGUE.iter().map(|entry| entry.name)
+}
+
 /// Renders the sequence `name` at `width × height` pixels. The field of view stays, so image motion
-/// in pixels grows with the size; at 320×240 it is a pixel or so.
+/// in pixels grows with the size; at 320×240 it is a pixel or so, and up to four where the
+/// camera passes something near.
 ///
 /// # Errors
 /// [`Error::Choice`] for an unknown name, [`Error::Size`] outside the limits of a frame.
@@ -102,17 +98,10 @@ pub fn render(name: &str, width: usize, height: usize) -> Result<Sequence, Error
         .ok_or_else(|| Error::Choice {
             what: "built-in sequence".to_owned(),
             value: name.to_owned(),
-            choices: NAMES.join(", "),
+            choices: names().collect::<Vec<_>>().join(", "),
         })?;
     let camera = camera(name, width, height)?;
-    let stage = match name {
-        "squares" => squares::stage(),
-        "blocks" => blocks::stage(),
-        "figure" => figure::stage(),
-        "head" => head::stage(),
-        "flight" => flight::stage(),
-        _ => carousel::stage(),
-    };
+    let stage = (entry.stage)();
     let pictures = [Moment::First, Moment::Second]
         .map(|moment| Caster::new(&stage, camera, moment).picture(width, height));
     Ok(sequence(entry, &stage, camera, width, height, &pictures))

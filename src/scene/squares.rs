@@ -12,9 +12,10 @@ pub(super) const ENTRY: Entry = Entry {
     title: "Two squares",
     lesson: "The simplest case: three surfaces, three translations. Each curve must find the four \
              corners of its square from motion alone, and each tilted square gets a depth of its own.",
+    stage,
 };
 
-pub(super) fn stage() -> Stage {
+fn stage() -> Stage {
     let wall = Texture {
         pattern: Pattern::Mottle,
         colours: palette(0x5d5a4e, 0x9c9a86, 0xdad6c0),
