@@ -25,7 +25,7 @@
 use crate::depth::{FieldPrior, hollow};
 use crate::motion::Kind;
 
-use super::evidence::Evidence;
+use super::evidence::{Evidence, Role};
 use super::region::{Region, certainty};
 
 /// n0, in pixels.
@@ -68,15 +68,8 @@ pub(super) fn chosen(
         kind: Kind::Full,
         ..translation.region.clone()
     };
-    let full = [
-        of_best_relief(&of_kind(Kind::Full), evidence, prior, reliefs),
-        fitted(freed, STEPS[1]),
-    ];
-    let full = full.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost));
-    let mut fits: Vec<Fit> = [still, rotation, translation]
-        .into_iter()
-        .chain(full.map(goes_on))
-        .collect();
+    let full = best_full(&of_kind(Kind::Full), evidence, prior, reliefs, Some(freed));
+    let mut fits = vec![still, rotation, translation, goes_on(full)];
     let least = fits.iter().map(|f| f.cost).fold(f64::INFINITY, f64::min);
     let enough = least + untold(region, evidence);
     // Rotation and translation are as simple as each other.
@@ -99,19 +92,24 @@ pub(super) fn in_relief(
     prior: &FieldPrior,
     reliefs: &[f64],
 ) -> Region {
-    of_best_relief(region, evidence, prior, reliefs).region
+    best_full(region, evidence, prior, reliefs, None).region
 }
 
-fn of_best_relief(
+/// The best of the full motions that are fitted from `region`, from it with other `reliefs`, and from what is `freed`.
+fn best_full(
     region: &Region,
     evidence: &Evidence,
     prior: &FieldPrior,
     reliefs: &[f64],
+    freed: Option<Region>,
 ) -> Fit {
     let mut best = fitted(region.clone(), evidence, prior, STEPS[0]);
-    for &depth in reliefs {
+    let in_relief = reliefs.iter().map(|&depth| {
         let mut start = region.clone();
         start.scale_relief(depth, evidence, prior);
+        start
+    });
+    for start in in_relief.chain(freed) {
         let fit = fitted(start, evidence, prior, STEPS[1]);
         if fit.cost < best.cost {
             best = fit;
@@ -136,7 +134,11 @@ fn untold(region: &Region, evidence: &Evidence) -> f64 {
         position += f64::from(own) * steep / evidence.variance(ix, iy);
         pixels += f64::from(own);
     }
-    let unsure = if evidence.alone { 0.0 } else { UNSURE };
+    let unsure = if evidence.role == Role::Whole {
+        0.0
+    } else {
+        UNSURE
+    };
     let most = (INTERPOLATION * INTERPOLATION * position).max(unsure * pixels);
     most / (2.0 * CORRELATED)
 }
@@ -171,8 +173,9 @@ fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
     } else {
         0.0
     };
-    let seen_hollow =
-        evidence.body && region.kind.translates() && hollow(&region.rho, &evidence.owned);
+    let seen_hollow = evidence.role == Role::Body
+        && region.kind.translates()
+        && hollow(&region.rho, &evidence.owned);
     (misfit + smoothness + 2.0 * freedom) / CORRELATED
         + parameters * (pixels / CORRELATED).max(2.0).ln()
         + if seen_hollow { HOLLOW } else { 0.0 }

@@ -36,6 +36,17 @@ const RELIEF: (f64, f64) = (1.5, 10.0);
 /// Longest step of f T and of f ω, in pixels.
 const LONGEST_STEP: f64 = 8.0;
 
+/// What a region is among the others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    /// All there is.
+    Whole,
+    /// What curves leave over: many things, each of which may stand before another.
+    Background,
+    /// What a curve encloses: one thing, seen from outside.
+    Body,
+}
+
 /// What a region is fitted to.
 #[derive(Clone)]
 pub(super) struct Evidence<'a> {
@@ -59,10 +70,8 @@ pub(super) struct Evidence<'a> {
     pub departing: bool,
     /// Whether T keeps how much of ρ shows (`motion/joint.rs`).
     pub keeps_shown: bool,
-    /// Whether the region is all there is.
-    pub alone: bool,
-    /// Whether the region is a body, which is seen from outside.
-    pub body: bool,
+    /// What the region is among the others.
+    pub role: Role,
 }
 
 impl Evidence<'_> {

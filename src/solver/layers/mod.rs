@@ -17,7 +17,7 @@ mod steps;
 use std::rc::Rc;
 
 use super::approach::pixels;
-use super::evidence::Evidence;
+use super::evidence::{Evidence, Role};
 use super::noise::{Noise, change_of_light};
 use super::region::{Region, certainty};
 use super::rim::rim;
@@ -198,8 +198,11 @@ impl Layers {
             departing,
             // Not before: long steps keep it to first order only.
             keeps_shown: k == 0 && self.schedule.settled(),
-            alone: self.regions.len() == 1,
-            body: k > 0,
+            role: match k {
+                0 if self.regions.len() == 1 => Role::Whole,
+                0 => Role::Background,
+                _ => Role::Body,
+            },
             withheld,
             owned,
             sigma: self.weights.sigma,

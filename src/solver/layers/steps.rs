@@ -11,6 +11,7 @@ use crate::occlusion::Cover;
 use crate::options::{MotionMethod, Options};
 use crate::solver::approach::Approach;
 use crate::solver::composition::{Layer, composed};
+use crate::solver::evidence::Role;
 use crate::solver::region::Region;
 use crate::solver::sweep::swept;
 use crate::solver::weights::Weights;
@@ -57,7 +58,8 @@ impl Approach for Layers {
             if options.search && schedule.searches() {
                 region.search(evidence, prior);
             }
-            let most = JOINT_STEPS[usize::from(evidence.body && evidence.departing)];
+            let free = evidence.role == Role::Body && evidence.departing;
+            let most = JOINT_STEPS[usize::from(free)];
             region.fit(evidence, prior, [JOINT_STEPS[0], most]);
             if options.search && schedule.chooses_relief() && region.kind == Kind::Full {
                 *region = choice::in_relief(region, evidence, prior, schedule.reliefs());
@@ -76,7 +78,7 @@ impl Approach for Layers {
             // On the first scale depth that follows anything would take what curves are still to take.
             let refined = self.schedule.level < self.schedule.start;
             self.each_region(options, |region, evidence, prior| {
-                let sweeps = sweeps && region.kind.translates() && !evidence.body;
+                let sweeps = sweeps && region.kind.translates() && evidence.role != Role::Body;
                 if sweeps {
                     region.rho = swept(region, evidence);
                     region.normalise(&evidence.owned);
