@@ -151,3 +151,23 @@ fn a_camera_that_turns_a_little_in_passing_is_not_said_to_shift_alone() {
         assert!(off < 4.0, "T is {off}° off in noise of {noise}");
     }
 }
+
+#[test]
+fn the_camera_s_way_does_not_turn_for_the_sake_of_smaller_leaps() {
+    for seed in [4, 5] {
+        let drawn = scene::passing("carousel", seed, 2.0, 4.0, W, H).unwrap();
+        let solver = solved(&drawn.frames, drawn.truth.camera, Options::default());
+        let off = angle(&solver.interpretation(), drawn.truth.motions[0].translation);
+        assert!(off < 2.0, "T of seed {seed} is {off}° off");
+    }
+}
+
+#[test]
+fn pixels_that_step_to_and_fro_do_not_use_up_all_passes() {
+    let drawn = scene::passing("blocks", 16, 2.0, 4.0, W, H).unwrap();
+    let solver = solved(&drawn.frames, drawn.truth.camera, Options::default());
+    assert_eq!(solver.status(), Status::Converged);
+    let held = &solver.history()[*solver.report().rested.last().unwrap()..];
+    let least = held.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!(held[held.len() - 1] < 1.01 * least, "{held:?}");
+}

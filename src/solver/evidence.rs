@@ -68,8 +68,9 @@ pub(super) struct Evidence<'a> {
     pub surface: Option<Polynomials>,
     /// Whether smoothness acts only on what departs from them, rather than on how depth bends about its own slope.
     pub departing: bool,
-    /// Whether T keeps how much of ρ shows (`motion/joint.rs`).
-    pub keeps_shown: bool,
+    /// Whether depth may leap and relief is large, so that T keeps how much of ρ shows (`motion/joint.rs`) and is found with
+    /// depth all but free.
+    pub leaps: bool,
     /// What the region is among the others.
     pub role: Role,
 }

@@ -1,7 +1,7 @@
 //! The passes that a solver has made, and whether it goes on. It stops as
-//! - *converged* when, for three passes running, at most `tolerance` of all pixels change region and
-//!   the energy changes by less than a thousandth, and nothing more is due; where motions are held it may as well come
-//!   back to what it was two passes before, since depth may step to and fro for ever,
+//! - *converged* when, for [`STILL_PASSES`] running, at most `tolerance` of all pixels change region and the energy
+//!   changes by less than a thousandth, and nothing more is due; or when, motions being held, energy has not fallen by
+//!   that much for [`VAIN_PASSES`], since pixels of a rim and their depth may step to and fro for ever,
 //! - *exhausted* (out of iterations) after `max_passes` since the curves were drawn,
 //! - *diverged* when the energy is no longer a finite number.
 
@@ -26,6 +26,8 @@ pub enum Status {
 
 /// Passes for which all must stand still.
 const STILL_PASSES: usize = 3;
+/// Passes for which energy must not have fallen where motions are held.
+const VAIN_PASSES: usize = 6;
 /// Relative change of energy that counts as standing still.
 const STILL_ENERGY: f64 = 1e-3;
 
@@ -68,16 +70,30 @@ impl History {
     /// Enters a pass of `stage` after which the energy is so much, and in which that share of all pixels has changed region;
     /// whether all has stood still for long enough.
     pub fn enter(&mut self, energy: f64, changed: f64, stage: Stage, tolerance: f64) -> bool {
-        let passes = if stage.rests { 2 } else { 1 };
-        let mut before = self.energies.iter().rev().take(passes);
-        let level = before.any(|e| (e - energy).abs() <= STILL_ENERGY * e.abs());
+        let before = self.energies.last();
+        let level = before.is_some_and(|e| (e - energy).abs() <= STILL_ENERGY * e.abs());
         self.still = if level && changed <= tolerance {
             self.still + 1
         } else {
             0
         };
         self.energies.push(energy);
+        if stage.rests && self.in_vain() {
+            self.still = STILL_PASSES;
+        }
         self.still >= STILL_PASSES
+    }
+
+    /// Whether the last passes, since motions were held, have brought no less energy than those before.
+    fn in_vain(&self) -> bool {
+        let held = &self.energies[self.rested.last().copied().unwrap_or(0)..];
+        let Some(first) = held.len().checked_sub(VAIN_PASSES) else {
+            return false;
+        };
+        let least = |part: &[f64]| part.iter().copied().fold(f64::INFINITY, f64::min);
+        let (before, last) = held.split_at(first);
+        // Of no pass the least is infinite.
+        least(last) > (1.0 - STILL_ENERGY) * least(before)
     }
 
     /// Enters what the pass has led to, and whether `more` is due.

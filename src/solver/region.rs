@@ -7,7 +7,7 @@ use super::evidence::Evidence;
 use crate::camera::RigidMotion;
 use crate::depth::{Bends, FieldPrior, Plane};
 use crate::grid::Grid;
-use crate::motion::{JointStep, Kind, held, solve_positive};
+use crate::motion::{Joint, JointStep, Kind, held, solve_positive};
 use crate::warp::{Linearisation, RESIDUAL, Scale};
 use crate::window::Window;
 
@@ -17,6 +17,8 @@ pub(super) const RHO_RANGE: [f32; 2] = [0.02, 20.0];
 const TURNS: f64 = 3.5e-4;
 /// Pixels over which a surface's slope is taken for the same.
 const SLOPE: f64 = 8.0;
+/// The share of μ under which a motion is found that depth does not hold.
+const FREE: f64 = 0.01;
 
 /// A region.
 #[derive(Clone, Debug)]
@@ -112,12 +114,31 @@ impl Region {
 
     /// Motion and depth together: one joint step.
     fn fit_jointly(&mut self, evidence: &Evidence, prior: &FieldPrior) {
+        let step = self.joint_step(evidence, prior);
+        self.motion = step.motion;
+        if self.kind.translates() {
+            self.add_depth(step.depth_step.data().iter().copied());
+        }
+    }
+
+    /// Motion by a joint step in which depth is all but free, then depth alone, as smooth as it is to be. Where depth leaps,
+    /// smoothness has T turn until leaps are smaller, by several degrees.
+    fn fit_in_turn(&mut self, evidence: &Evidence, prior: &FieldPrior) {
+        let free = FieldPrior {
+            strength: FREE * prior.strength,
+            ..prior.clone()
+        };
+        self.motion = self.joint_step(evidence, &free).motion;
+        self.fit_depth(evidence, prior);
+    }
+
+    fn joint_step(&self, evidence: &Evidence, prior: &FieldPrior) -> Joint {
         let linearisation = evidence.linearise(self);
         let weight = evidence.fitting_weights(&linearisation);
         let bends = self.bends(&linearisation, evidence, &weight);
         let edges = prior.edges(&bends);
         let (data, force) = self.data_term(&linearisation, &weight, evidence, prior);
-        let step = JointStep {
+        JointStep {
             rows: &linearisation.rows,
             weight: &weight,
             system: &edges.system(weight.width(), weight.height(), data.clone().into_vec()),
@@ -127,22 +148,22 @@ impl Region {
             surface: evidence.surface.as_ref(),
             rotation_prior: evidence.rotation_prior(),
             kind: self.kind,
-            keeps_shown: evidence.keeps_shown,
+            keeps_shown: evidence.leaps,
             longest: evidence.longest(),
         }
-        .solve(&self.motion);
-        self.motion = step.motion;
-        if self.kind.translates() {
-            self.add_depth(step.depth_step.data().iter().copied());
-        }
+        .solve(&self.motion)
     }
 
-    /// Joint steps: `least`, and up to `most` while T still turns, or ω changes, by [`TURNS`] and more. How deep relief is
+    /// Steps of motion and depth: `least`, and up to `most` while T still turns, or ω changes, by [`TURNS`] and more. How deep relief is
     /// and how far a body turns creep together, which takes dozens where two views hardly tell them apart.
     pub fn fit(&mut self, evidence: &Evidence, prior: &FieldPrior, [least, most]: [usize; 2]) {
         for taken in 1..=most {
             let before = self.motion;
-            self.fit_jointly(evidence, prior);
+            if evidence.leaps {
+                self.fit_in_turn(evidence, prior);
+            } else {
+                self.fit_jointly(evidence, prior);
+            }
             self.normalise(&evidence.owned);
             // T = 0 has no direction: not a number, which `max` leaves out.
             let turned = before.translation.angle_between(self.motion.translation);

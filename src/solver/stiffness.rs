@@ -21,8 +21,9 @@ use crate::grid::Grid;
 
 /// Shares of μ that are tried, the stiffest first.
 const SHARES: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 0.0625];
-/// Side of a block, in pixels.
-const SIDE: usize = 8;
+/// Side of a block, in pixels: what lies deep in a large one is foretold by averages of what surrounds it, and the softest
+/// depth, which follows noise where it sees it, would look best.
+const SIDE: usize = 4;
 /// Pixels inside a block's border that are not judged.
 const RIM: usize = 1;
 /// Steps of depth from one share to the next: the slope that is expected is a step behind.

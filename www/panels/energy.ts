@@ -134,7 +134,10 @@ function dataOf({ report }: Readonly<State>): uPlot.AlignedData {
   return [passes, energies];
 }
 
-/** A dashed line where energy became another sum, and above it what began: names of scales end there, others start. */
+/**
+ * A dashed line where energy became another sum, and above it what began: names of scales end there, others start.
+ * Where a scale took few passes there is room for its number alone.
+ */
 function markBreaks(chart: uPlot): void {
   const { ctx, bbox } = chart;
   const { report } = store.state;
@@ -145,16 +148,20 @@ function markBreaks(chart: uPlot): void {
   ctx.setLineDash([3 * ratio, 3 * ratio]);
   ctx.font = `${11 * ratio}px system-ui, sans-serif`;
   ctx.textBaseline = "bottom";
+  const gap = 3 * ratio;
+  let taken = 0;
   for (const { after, name } of report ? breaks(report) : []) {
     const x = Math.round(chart.valToPos(after + 0.5, "x", true));
     ctx.beginPath();
     ctx.moveTo(x, bbox.top);
     ctx.lineTo(x, bbox.top + bbox.height);
     ctx.stroke();
-    const gap = 3 * ratio;
     const before = name.startsWith("scale");
+    const end = before ? x + gap : x - gap + ctx.measureText(name).width;
+    const short = before && end - ctx.measureText(name).width < taken + gap;
     ctx.textAlign = before ? "right" : "left";
-    ctx.fillText(name, before ? x + gap : x - gap, bbox.top - gap);
+    ctx.fillText(short ? name.replace("scale ", "") : name, before ? end : x - gap, bbox.top - gap);
+    taken = end;
   }
   ctx.restore();
 }

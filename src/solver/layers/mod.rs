@@ -197,7 +197,7 @@ impl Layers {
             surface: Polynomials::over(&owned, if departing { 3 } else { 2 }),
             departing,
             // Not before: long steps keep it to first order only.
-            keeps_shown: k == 0 && self.schedule.settled(),
+            leaps: k == 0 && self.schedule.settled(),
             role: match k {
                 0 if self.regions.len() == 1 => Role::Whole,
                 0 => Role::Background,
