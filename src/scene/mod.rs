@@ -14,6 +14,8 @@ mod head;
 mod lottery;
 mod noise;
 mod passing;
+mod picture;
+mod shade;
 mod solid;
 mod squares;
 mod stage;
