@@ -151,3 +151,16 @@ pub enum Error {
         reason: String,
     },
 }
+
+/// Whether `value`, called `key`, lies from `min` to `max`; not-a-number never does.
+pub(crate) fn within(key: &str, value: f64, min: f64, max: f64) -> Result<(), Error> {
+    if (min..=max).contains(&value) {
+        return Ok(());
+    }
+    Err(Error::Option {
+        key: key.to_owned(),
+        value: value.to_string(),
+        min,
+        max,
+    })
+}

@@ -15,14 +15,33 @@
 //! with the frame continued past its border by its nearest pixel. u points right and v down, in pixels
 //! per frame. It starts from no motion and stops after the sweeps asked for, whatever the residual.
 
+use crate::camera::{Camera, RigidMotion};
+use crate::error::Error;
 use crate::frames::FramePair;
 use crate::grid::Grid;
-use crate::interpretation::Flow;
+use crate::interpretation::{Flow, Interpretation};
 
 /// A smoothness weight for ordinary film, in grey levels per pixel.
 pub const ALPHA: f32 = 10.0;
 /// Sweeps after which ordinary film hardly changes.
 pub const SWEEPS: usize = 300;
+
+/// What Horn–Schunck makes of `pair`: image motion, and nothing known of anything else.
+///
+/// # Errors
+/// Those of [`Camera::centred`].
+pub fn interpreted(pair: &FramePair) -> Result<Interpretation, Error> {
+    let (width, height) = (pair.width(), pair.height());
+    Ok(Interpretation {
+        camera: Camera::centred(width as f64, width, height)?,
+        labels: Grid::new(width, height, 0),
+        depth: Grid::new(width, height, 1.0),
+        flow: solve(pair, ALPHA, SWEEPS),
+        confidence: Grid::new(width, height, 0.0),
+        occluded: Grid::new(width, height, 0),
+        motions: vec![RigidMotion::default()],
+    })
+}
 
 /// The flow of `pair` after `sweeps` sweeps (see [`SWEEPS`]) with smoothness weight
 /// `alpha` > 0 in grey levels per pixel (see [`ALPHA`]). With `alpha` = 0 pixels

@@ -167,3 +167,13 @@ fn motion_returns_exactly() {
     }
     assert!(matches!(MotionFile::read("{"), Err(Error::Json { .. })));
 }
+
+#[test]
+fn the_motion_of_a_run_that_diverged_can_be_read() {
+    let diverged = MotionFile {
+        energy: vec![3.5, f64::INFINITY],
+        ..MotionFile::default()
+    };
+    let back = MotionFile::read(&diverged.write()).unwrap();
+    assert!(back.energy[0] == 3.5 && back.energy[1].is_nan());
+}

@@ -5,7 +5,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::frames::Lighting;
 use relievo::warp::Scale;
-use relievo::{Grid, scene};
+use relievo::{Frame, FramePair, Grid, Options, Solver, scene};
 
 const W: usize = 80;
 const H: usize = 60;
@@ -95,4 +95,34 @@ fn a_scale_relit_is_that_of_frames_in_that_light() {
     assert!(same(&relit.bend, &other.bend));
     assert_eq!(relit.second, other.second);
     assert_eq!(relit.second_gradient, other.second_gradient);
+}
+
+#[test]
+fn light_that_is_not_to_be_allowed_for_is_forgotten() {
+    let sequence = scene::render("squares", 96, 72).unwrap();
+    let [first, second] = sequence.frames.clone();
+    let brighter = Frame::from_grey(lit(&second.grey, light(1.2, 0.0))).unwrap();
+    let pair = FramePair::new(first, brighter).unwrap();
+    let camera = sequence.truth.camera;
+    let start = |options| Solver::new(pair.clone(), camera, &sequence.curves, options).unwrap();
+    let off = Options {
+        lighting: false,
+        ..Options::default()
+    };
+    let passes = |solver: &mut Solver, count| {
+        for _ in 0..count {
+            solver.step();
+        }
+        solver.report().weights.sigma
+    };
+    let blind = passes(&mut start(off.clone()), 5);
+    let mut solver = start(Options::default());
+    let allowed = passes(&mut solver, 5);
+    assert!(blind > 3.0 * allowed, "{blind} and {allowed} grey levels");
+    solver.set_options(off).unwrap();
+    let forgotten = passes(&mut solver, 1);
+    assert!(
+        forgotten > 0.5 * blind,
+        "{forgotten} of {blind} grey levels"
+    );
 }

@@ -6,8 +6,7 @@
 //!
 //! ρ = 1/Z makes the data term linear. s is the step that is expected (`bends.rs`), lagged: what is smoothed is how
 //! ρ bends, or how what departs from a cubic surface does (`polynomials.rs`). c is (11) or (12) of the bend over ε, lagged;
-//! ε is in units of mean ρ per focal length, so that it means a slope of the surface and not of pixels, and less on
-//! creases (`crease.rs`). The bend that c sees is averaged over a pixel or two: a fold is a line and stays, a pixel
+//! ε is a change of ρ per pixel of the frame, in units of mean ρ, and less on creases (`crease.rs`). The bend that c sees is averaged over a pixel or two: a fold is a line and stays, a pixel
 //! that sticks out by itself, which is noise, is pulled back (Catté, Lions, Morel & Coll 1992). Edges that leave the
 //! region count [`BEYOND`]: there smoothness only carries depth on, and what is carried on would else hold the surface
 //! along its curve, as a frame does a cloth. Weights are in units of the noise's variance. κ keeps relief that nothing

@@ -2,7 +2,7 @@
 //!
 //! T is in units in which the region's mean 1/Z is 1, per frame; ω in radians per frame.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::camera::RigidMotion;
 use crate::error::Error;
@@ -16,7 +16,8 @@ pub struct MotionFile {
     pub status: String,
     /// Passes made.
     pub iterations: usize,
-    /// Total energy after each pass.
+    /// Total energy after each pass; null, and read as not a number, where it was not finite.
+    #[serde(deserialize_with = "or_nan")]
     pub energy: Vec<f64>,
     /// Where the time went.
     pub seconds: Seconds,
@@ -82,4 +83,9 @@ impl MotionFile {
             reason: e.to_string(),
         })
     }
+}
+
+fn or_nan<'de, D: Deserializer<'de>>(numbers: D) -> Result<Vec<f64>, D::Error> {
+    let read = Vec::<Option<f64>>::deserialize(numbers)?;
+    Ok(read.into_iter().map(|n| n.unwrap_or(f64::NAN)).collect())
 }

@@ -14,7 +14,7 @@ use super::lottery::{Course, draw};
 use super::stage::Stage;
 use super::{Entry, Sequence, blocks, camera, carousel, sequence, truth};
 use crate::camera::{Camera, RigidMotion};
-use crate::error::Error;
+use crate::error::{Error, within};
 use crate::grid::Grid;
 
 /// Share of the frame that every object shows at least.
@@ -37,7 +37,7 @@ const MOST_NOISE: f64 = 50.0;
 
 /// Draws a variant of `base` ("blocks" or "carousel") from `seed` and renders it at
 /// `width × height`. Both frames get Gaussian noise of `noise_sigma` grey levels (0–50), the same in all
-/// channels, before they are rounded; `displacement` (0.1–16) is the largest image motion in pixels
+/// channels, and are rounded again; `displacement` (0.1–16) is the largest image motion in pixels
 /// at a width of 320, larger in proportion in larger frames.
 ///
 /// # Errors
@@ -94,8 +94,8 @@ impl Drawn {
                 });
             }
         };
-        check("noise", f64::from(noise_sigma), 0.0, MOST_NOISE)?;
-        check("displacement", displacement, 0.1, MOST_DISPLACEMENT)?;
+        within("noise", f64::from(noise_sigma), 0.0, MOST_NOISE)?;
+        within("displacement", displacement, 0.1, MOST_DISPLACEMENT)?;
         let camera = camera(base, size[0], size[1])?;
         // Another stream for each base, and another for the noise.
         let mut dice = Dice::new(seed ^ if many { 0x6361_726f } else { 0x626c_6f63 });
@@ -186,16 +186,4 @@ pub(super) fn set_motion(stage: &mut Stage, courses: &[Course], displacement: f6
         });
     stage.motions = motions;
     good
-}
-
-fn check(key: &str, value: f64, min: f64, max: f64) -> Result<(), Error> {
-    if (min..=max).contains(&value) {
-        return Ok(());
-    }
-    Err(Error::Option {
-        key: key.to_owned(),
-        value: value.to_string(),
-        min,
-        max,
-    })
 }

@@ -22,8 +22,8 @@ pub(super) trait Approach {
     /// Step 3.
     fn move_curves(&mut self, options: &Options);
 
-    /// Ends a pass. `still` says that curves and energy have stood still for long enough; returns whether
-    /// there is something more to do all the same, such as a finer scale.
+    /// Ends a pass. `still` says that curves and energy have stood still for long enough, or been to and fro; returns
+    /// whether there is something more to do all the same, such as a finer scale.
     fn end_pass(&mut self, still: bool, options: &Options) -> bool;
 
     /// Settings have changed.

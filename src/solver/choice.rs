@@ -7,7 +7,7 @@
 //! C = ( Σ ρ(r²/v) + (smoothness + relief)/σ² + 2 p ) / n0 + d ln(n/n0) + b
 //! ```
 //!
-//! ρ the robust χ², d the kind's parameters (still 0, rotation 3, translation 2, full 5; T's length is not
+//! ρ the robust χ², that of a hidden pixel where it leaves the frame, d the kind's parameters (still 0, rotation 3, translation 2, full 5; T's length is not
 //! observable), n the region's pixels, [`CORRELATED`] = n0 the pixels that one independent sample of noise
 //! spreads over, and p = Σ h/(h + Σc) the parameters' worth of freedom that depth takes (h its data weight,
 //! c its smoothing at a pixel), which kinds that translate pay for: with depth to adjust, noise alone can
@@ -24,6 +24,7 @@
 
 use crate::depth::{FieldPrior, hollow};
 use crate::motion::Kind;
+use crate::occlusion::HIDDEN;
 
 use super::evidence::{Evidence, Role};
 use super::region::{Region, certainty};
@@ -37,7 +38,7 @@ const UNSURE: f64 = 0.07;
 /// b: in noise a body's mirror image has been seen to explain it better by 20, where folds are smoothed over; with little
 /// noise the image costs hundreds.
 const HOLLOW: f64 = 30.0;
-/// Joint steps that each kind is fitted with, those that each depth of relief is, whose fit has farther to go,
+/// Steps of motion and depth that each kind is fitted with, those that each depth of relief is, whose fit has farther to go,
 /// and those with which the best of each kind goes on.
 const STEPS: [usize; 3] = [3, 12, 5];
 
@@ -150,12 +151,14 @@ fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
     let (mut misfit, mut pixels) = (0.0, 0.0);
     let bends = region.bends(&linearisation, evidence, &weight);
     let edges = prior.edges(&bends);
-    for i in 0..weight.len() {
-        if evidence.owned.data()[i] <= 0.0 {
-            continue;
-        }
-        pixels += 1.0;
-        misfit += evidence.misfit(&linearisation, i);
+    for (i, &own) in evidence.owned.data().iter().enumerate() {
+        pixels += f64::from(own);
+        misfit += f64::from(own)
+            * if linearisation.inside.data()[i] {
+                evidence.misfit(&linearisation, i)
+            } else {
+                f64::from(HIDDEN)
+            };
     }
     let freedom = if region.kind.translates() {
         edges.determined(&certainty(&linearisation, &weight))

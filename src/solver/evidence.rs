@@ -53,7 +53,7 @@ pub(super) struct Evidence<'a> {
     pub scale: &'a Scale,
     /// Where the region's field is computed; grids have its size.
     pub window: Window,
-    /// 1 where the region owns the pixel and it is seen in both frames, else 0.
+    /// 1 where the region owns the pixel, less where it is offered to it, else 0.
     pub owned: Grid<f32>,
     /// Standard deviation of the residual, grey levels.
     pub sigma: f64,
@@ -68,8 +68,8 @@ pub(super) struct Evidence<'a> {
     pub surface: Option<Polynomials>,
     /// Whether smoothness acts only on what departs from them, rather than on how depth bends about its own slope.
     pub departing: bool,
-    /// Whether depth may leap and relief is large, so that T keeps how much of ρ shows (`motion/joint.rs`) and is found with
-    /// depth all but free.
+    /// Whether depth may leap and reach far, as a background's, so that T keeps how much of ρ shows (`motion/joint.rs`) and
+    /// is found with depth all but free.
     pub leaps: bool,
     /// What the region is among the others.
     pub role: Role,

@@ -16,7 +16,7 @@ use crate::options::Options;
 pub enum Status {
     /// There is more to do.
     Running,
-    /// Curves and energy stand still.
+    /// Curves and energy stand still, or step to and fro to no purpose.
     Converged,
     /// All passes allowed are used up.
     Exhausted,
@@ -46,6 +46,8 @@ pub(super) struct History {
     drawn: usize,
     /// Passes for which all has stood still.
     still: usize,
+    /// Whether energy has not fallen for long, motions being held.
+    in_vain: bool,
 }
 
 /// What an approach tells of where it is.
@@ -68,7 +70,7 @@ impl Stage {
 
 impl History {
     /// Enters a pass of `stage` after which the energy is so much, and in which that share of all pixels has changed region;
-    /// whether all has stood still for long enough.
+    /// whether going on is of no use, as far as these tell.
     pub fn enter(&mut self, energy: f64, changed: f64, stage: Stage, tolerance: f64) -> bool {
         let before = self.energies.last();
         let level = before.is_some_and(|e| (e - energy).abs() <= STILL_ENERGY * e.abs());
@@ -78,14 +80,16 @@ impl History {
             0
         };
         self.energies.push(energy);
-        if stage.rests && self.in_vain() {
-            self.still = STILL_PASSES;
-        }
-        self.still >= STILL_PASSES
+        self.in_vain = stage.rests && self.has_stopped_falling();
+        self.idle()
+    }
+
+    fn idle(&self) -> bool {
+        self.still >= STILL_PASSES || self.in_vain
     }
 
     /// Whether the last passes, since motions were held, have brought no less energy than those before.
-    fn in_vain(&self) -> bool {
+    fn has_stopped_falling(&self) -> bool {
         let held = &self.energies[self.rested.last().copied().unwrap_or(0)..];
         let Some(first) = held.len().checked_sub(VAIN_PASSES) else {
             return false;
@@ -110,6 +114,7 @@ impl History {
         }
         if more {
             self.still = 0;
+            self.in_vain = false;
         }
     }
 
@@ -117,7 +122,7 @@ impl History {
     pub fn status(&self, options: &Options) -> Status {
         if self.energies.last().is_some_and(|e| !e.is_finite()) {
             Status::Diverged
-        } else if self.still >= STILL_PASSES {
+        } else if self.idle() {
             Status::Converged
         } else if self.used_up(options) {
             Status::Exhausted
@@ -134,6 +139,7 @@ impl History {
     /// Something has been changed, and what stood still may move again; where the solver stands then.
     pub fn resume(&mut self, options: &Options) -> Status {
         self.still = 0;
+        self.in_vain = false;
         if self.used_up(options) {
             Status::Exhausted
         } else {

@@ -7,6 +7,7 @@ mod approach;
 mod choice;
 mod composition;
 mod evidence;
+mod fit;
 mod history;
 mod layers;
 mod leap;

@@ -99,7 +99,7 @@ impl Schedule {
         self.level == 0 && self.deep().is_some_and(|deep| deep >= pass)
     }
 
-    /// Whether this is the first pass of all.
+    /// Whether this is the first pass on this scale, or since curves were drawn anew.
     pub fn begins(&self) -> bool {
         self.pass == 0
     }

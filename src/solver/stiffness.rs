@@ -9,7 +9,7 @@
 //! ```
 //!
 //! with ρ the robust χ² (cross-validation, Stone 1974). ω are the weights of the fit at full μ: a shadow, which it
-//! does not follow, shall not speak for depth that does. Noise reaches over a pixel or two where frames are
+//! does not follow, shall not speak for depth that does. Noise reaches over a pixel where frames are
 //! smoothed and interpolated, so that a rim of [`RIM`] pixels is not judged. Of shares whose CV differs from
 //! the least by no more than one standard error, blocks counting as independent, the stiffest is taken
 //! (Breiman et al. 1984).

@@ -23,7 +23,8 @@ use crate::warp::{Linearisation, RESIDUAL};
 const WINDOW: f64 = 2.0;
 /// E: noise alone is 1.
 const EXPLAINED: f32 = 2.0;
-/// Image motion between planes, in pixels: half of it is as far as a linearisation holds in fine texture.
+/// Image motion between planes, in pixels: half of it is as far as a linearisation holds in fine texture. More where
+/// [`MOST`] planes would not reach the nearest.
 const SPACING: f32 = 0.7;
 /// Planes at most, and the ρ of the nearest: five times as near as the region is in the mean.
 const MOST: (usize, f32) = (64, 5.0);
@@ -45,7 +46,7 @@ pub(super) fn swept(region: &Region, evidence: &Evidence) -> Grid<f32> {
         return rho;
     };
     let planes = (0..MOST.0).map(|j| RHO_RANGE[0] + j as f32 * step);
-    for plane in planes.take_while(|rho| *rho <= MOST.1) {
+    for plane in planes.take_while(|rho| *rho <= MOST.1 + 0.5 * step) {
         let fitted = around.fitted(region, plane, step);
         let misfit = around.misfit(&evidence.linearise(&fitted));
         for (i, &m) in misfit.data().iter().enumerate() {
@@ -58,7 +59,7 @@ pub(super) fn swept(region: &Region, evidence: &Evidence) -> Grid<f32> {
     rho
 }
 
-/// The difference in ρ that moves the image by [`SPACING`]; `None` where depths up to the mean
+/// The difference in ρ from plane to plane, which moves the image by [`SPACING`]; `None` where depths up to the mean
 /// move it by less, as those of a background that stands still: nothing is a period of texture away there.
 fn spacing(region: &Region, evidence: &Evidence) -> Option<f32> {
     let [far, near] = [RHO_RANGE[0], 1.0].map(|rho| evidence.linearise(&level(region, rho)));
@@ -68,7 +69,8 @@ fn spacing(region: &Region, evidence: &Evidence) -> Option<f32> {
         (near[0] - far[0]).hypot(near[1] - far[1])
     });
     let most = moves.fold(0.0, f32::max);
-    (most > SPACING).then(|| SPACING * (1.0 - RHO_RANGE[0]) / most)
+    let widest = (MOST.1 - RHO_RANGE[0]) / (MOST.0 - 1) as f32;
+    (most > SPACING).then(|| widest.max(SPACING * (1.0 - RHO_RANGE[0]) / most))
 }
 
 /// The region as a frontal plane.

@@ -14,7 +14,7 @@ use crate::options::Options;
 const MU_OVER_VARIANCE: f64 = 20.0;
 /// λ/σ²: what a pixel of curve counts.
 const LAMBDA_OVER_VARIANCE: f64 = 1.5;
-/// μ/σ² of the coarse-to-fine approach, whose ε is the slope of a surface: while regions still hold pixels
+/// μ/σ² of the coarse-to-fine approach, whose depth is inverse: while regions still hold pixels
 /// of others, which depth must not explain away, and once they have settled.
 const MU_OF_LAYERS: [f64; 2] = [1.0, 0.1];
 /// λ/σ² of the coarse-to-fine approach, whose ξ counts a pixel once and whose outlines cost half where they lie
@@ -32,7 +32,8 @@ pub struct Weights {
     pub mu: f64,
     /// λ of (7), grey levels²·px.
     pub lambda: f64,
-    /// σ of the residual that μ was chosen from, grey levels; 0 before the first motion step.
+    /// σ of the residual that μ was chosen from, grey levels; before the first motion step 0, or infinite where regions
+    /// have fields of their own.
     pub sigma: f64,
     /// σ that λ was chosen from.
     #[serde(skip)]

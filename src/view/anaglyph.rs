@@ -2,8 +2,8 @@
 //!
 //! E. Dubois, "A projection method to generate anaglyph stereo images" (2001), and the sets that he
 //! published later: each output channel is a weighted sum of the six input channels, in linear light,
-//! clipped and encoded. Weights of a channel sum to 1, so that what both eyes see alike keeps its
-//! brightness.
+//! clipped and encoded. Weights of a channel that is used sum to 1, so that what both eyes see alike keeps
+//! its brightness.
 
 use super::colour::{decode, encode};
 use super::params::{Choice, choose};

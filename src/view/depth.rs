@@ -22,13 +22,13 @@ const FULL: f32 = 0.5;
 pub fn depth(found: &Interpretation, params: &ViewParams) -> Result<Picture, Error> {
     let palette = Palette::named(&params.palette)?;
     let regions = found.labels.data().iter().copied().max().unwrap_or(0);
-    let spans: Vec<Option<Span>> = (0..=regions)
-        .map(|k| {
-            Span::of(found, false, |i| {
-                !params.per_region || found.labels.data()[i] == k
-            })
-        })
-        .collect();
+    let regions = usize::from(regions) + 1;
+    let spans: Vec<Option<Span>> = if params.per_region {
+        let of_region = |k| Span::of(found, false, |i| usize::from(found.labels.data()[i]) == k);
+        (0..regions).map(of_region).collect()
+    } else {
+        vec![Span::of(found, false, |_| true); regions]
+    };
     let (width, height) = (found.depth.width(), found.depth.height());
     Ok(Grid::from_fn(width, height, |x, y| {
         let unknown = if hatched(x, y) { HATCHING } else { UNKNOWN };

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::Error;
+use crate::error::{Error, within};
 
 /// One of several things to choose from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -111,18 +111,6 @@ impl ViewParams {
         within("step", self.step.unwrap_or(1) as f64, 1.0, 64.0)?;
         within("magnify", self.magnify as f64, 1.0, 4.0)
     }
-}
-
-fn within(key: &str, value: f64, min: f64, max: f64) -> Result<(), Error> {
-    if (min..=max).contains(&value) {
-        return Ok(());
-    }
-    Err(Error::Option {
-        key: key.to_owned(),
-        value: value.to_string(),
-        min,
-        max,
-    })
 }
 
 /// The choice among `choices` whose value is `value`.

@@ -3,26 +3,10 @@
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::{Frame, Picture, draw};
-use crate::camera::{Camera, RigidMotion};
 use crate::error::Error;
 use crate::frames::FramePair;
-use crate::grid::Grid;
-use crate::horn_schunck::{ALPHA, SWEEPS, solve};
+use crate::horn_schunck::interpreted;
 use crate::interpretation::Interpretation;
-
-/// What Horn–Schunck makes of a pair: image motion, and nothing known of anything else.
-pub(super) fn baseline(pair: &FramePair) -> Result<Interpretation, Error> {
-    let (width, height) = (pair.width(), pair.height());
-    Ok(Interpretation {
-        camera: Camera::centred(width as f64, width, height)?,
-        labels: Grid::new(width, height, 0),
-        depth: Grid::new(width, height, 1.0),
-        flow: solve(pair, ALPHA, SWEEPS),
-        confidence: Grid::new(width, height, 0.0),
-        occluded: Grid::new(width, height, 0),
-        motions: vec![RigidMotion::default()],
-    })
-}
 
 /// What Horn–Schunck makes of two frames.
 #[wasm_bindgen]
@@ -35,7 +19,7 @@ pub struct Baseline {
 #[wasm_bindgen(js_name = hornSchunck)]
 pub fn horn_schunck(first: &Frame, second: &Frame) -> Result<Baseline, Error> {
     let pair = FramePair::new(first.0.clone(), second.0.clone())?;
-    let found = baseline(&pair)?;
+    let found = interpreted(&pair)?;
     Ok(Baseline { pair, found })
 }
 

@@ -65,12 +65,17 @@ impl SavedResult {
             None => Grid::new(width, height, 0),
         };
         let regions = MotionFile::read(motion)?.regions;
+        // Where nothing travels depth leaves no trace, so that it is not there to be compared.
+        let travels = |k: u8| {
+            let region = regions.get(usize::from(k));
+            region.is_none_or(|region| region.translation != [0.0; 3])
+        };
         let read = Interpretation {
             // Scores do not ask for the camera, and the files do not say it.
             camera: Camera::centred(width as f64, width, height)?,
             depth: alike(&labels, pfm::read(depth, "depth.pfm")?, "depth.pfm")?,
             occluded: alike(&labels, occluded, "occlusion.png")?,
-            confidence: Grid::new(width, height, 1.0),
+            confidence: labels.map(|k| f32::from(travels(k))),
             flow: flo::read(flow, "flow.flo")?,
             motions: regions.iter().map(|region| region.motion()).collect(),
             labels,

@@ -5,13 +5,13 @@ use std::cell::OnceCell;
 use js_sys::Array;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use super::baseline::baseline;
 use super::files::{data, listed};
 use super::{Frame, Picture, draw, write};
 use crate::error::Error;
 use crate::file::motion::{MotionFile, RegionMotion};
 use crate::file::png;
 use crate::frames::FramePair;
+use crate::horn_schunck::interpreted;
 use crate::interpretation::Interpretation;
 use crate::scene::{self, Sequence};
 
@@ -100,7 +100,7 @@ impl Scene {
     pub(super) fn baseline(&self) -> Result<&Interpretation, Error> {
         if self.baseline.get().is_none() {
             let [first, second] = self.sequence.frames.clone();
-            let found = baseline(&FramePair::new(first, second)?)?;
+            let found = interpreted(&FramePair::new(first, second)?)?;
             let _ = self.baseline.set(found);
         }
         Ok(self.baseline.get().expect("it was just set"))

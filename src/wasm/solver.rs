@@ -161,7 +161,12 @@ impl Solver {
     /// A picture of what is found so far: one of `viewCatalogue()`, with parameters of its own as JSON.
     pub fn view(&self, kind: &str, params: &str) -> Result<Picture, Error> {
         let pair = self.solver.pair();
-        let contours = self.solver.contours();
+        // No other view shows curves.
+        let contours = if kind == "segmentation" {
+            self.solver.contours()
+        } else {
+            Vec::new()
+        };
         let frames = [pair.first(), pair.second()];
         draw(kind, frames, self.found(), &contours, params)
     }

@@ -61,6 +61,13 @@ describe("a scene", () => {
     assert.ok(found.labels_wrong > 0 && found.aee > 0);
     assert.match(relievo("score", out, out).stdout, /labels wrong +0\.0 %/);
   });
+
+  test("has no score for depth of what stands still", () => {
+    const still = join(folder, "blocks");
+    relievo("scene", "blocks", "--size", "80x60", "--out", still);
+    const { depth_error } = JSON.parse(relievo("score", still, still, "--json").stdout);
+    assert.deepEqual(depth_error, [null, 0, 0]);
+  });
 });
 
 describe("a wrong command line ends with 2 and a sentence", () => {

@@ -196,7 +196,7 @@ impl Layers {
             window,
             surface: Polynomials::over(&owned, if departing { 3 } else { 2 }),
             departing,
-            // Not before: long steps keep it to first order only.
+            // Not before: how much shows is kept to first order, and steps are long until then.
             leaps: k == 0 && self.schedule.settled(),
             role: match k {
                 0 if self.regions.len() == 1 => Role::Whole,

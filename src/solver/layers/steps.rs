@@ -4,6 +4,7 @@ use super::Layers;
 use crate::camera::RigidMotion;
 use crate::curves::{self, Measure};
 use crate::energy::Energy;
+use crate::frames::Lighting;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 use crate::motion::Kind;
@@ -18,9 +19,9 @@ use crate::solver::weights::Weights;
 use crate::solver::{choice, rivalry, stiffness};
 use crate::warp::pyramid;
 
-/// Joint steps in a pass, and for a body whose depth is free to depart from its surface as many as this while motion does
-/// not stand still. Not for the background: its depth may leap where no curve is, and T, followed to the end, goes after
-/// what no surface explains.
+/// Steps of motion and depth in a pass, and for a body whose depth is free to depart from its surface as many as this while
+/// motion does not stand still. Not for the background: its depth may leap where no curve is, and T, followed to the end,
+/// goes after what no depth explains.
 const JOINT_STEPS: [usize; 2] = [2, 8];
 /// Steps of depth alone where motions are held, as many as depth has in a pass in which they are not, and where depth has
 /// been swept, which leaves it rough.
@@ -151,11 +152,20 @@ impl Approach for Layers {
     }
 
     fn reconsider(&mut self, options: &Options) {
-        if options.smoothing != self.smoothing {
+        let forgets_light = !options.lighting && self.lighting != Lighting::default();
+        if forgets_light {
+            self.lighting = Lighting::default();
+        }
+        if options.smoothing != self.smoothing || forgets_light {
             self.smoothing = options.smoothing;
             self.scales = pyramid(&self.pair, self.scales[0].camera, options.smoothing);
             for scale in &mut self.scales {
                 scale.relight(self.lighting);
+            }
+        }
+        if !options.lighting {
+            for region in &mut self.regions {
+                region.shade.data_mut().fill(0.0);
             }
         }
         self.weights = Weights::of_layers(self.noise.sigma, self.schedule.settled(), options);
