@@ -1,6 +1,6 @@
 // Files in and out, with errors that name them.
 
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { accessSync, constants, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 import { InputError } from "./errors.js";
@@ -43,6 +43,11 @@ export function prepare(folder) {
     mkdirSync(folder, { recursive: true });
   } catch (error) {
     throw explained(error, `${folder} cannot be made`);
+  }
+  try {
+    accessSync(folder, constants.W_OK);
+  } catch (error) {
+    throw explained(error, `${folder} cannot be written to`);
   }
 }
 

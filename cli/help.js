@@ -16,7 +16,7 @@ Usage:
   relievo FRAME1 FRAME2 --focal F [options]
   relievo scene NAME [--size WxH] [--out DIR]
   relievo scenes
-  relievo score FOUND TRUTH
+  relievo score FOUND TRUTH [--json]
 
 Coordinates are pixels, (0, 0) the centre of the top-left pixel. Frames are PNG, JPEG, PNM, WebP,
 BMP or TIFF, from ${minSide}×${minSide} to ${maxSide}×${maxSide} pixels.
@@ -41,8 +41,9 @@ ${table([
   ...catalogue(core).map(describe),
 ])}
 
-Results: labels.png (0 background, k the k-th curve), depth.pfm, flow.flo, motion.json, and pictures.
-A scene has the same files for its truth, frame0.png, frame1.png, occlusion.png and scene.json.
+Results: labels.png (0 background, k the k-th curve), depth.pfm, flow.flo, motion.json,
+occlusion.png, and pictures. A scene has the first five for its truth, frame0.png, frame1.png and
+scene.json, in a folder of its name unless --out says otherwise. score prints JSON with --json.
 
 Sequences:
 ${table(scenes.map((/** @type {Record<string, string>} */ s) => [s["name"], s["title"]]))}
@@ -69,10 +70,15 @@ function describe({ key, meaning, unit, kind, min, max, automatic, choices, defa
         ? "on | off"
         : `${min} to ${max}${unit && ` ${unit}`}${automatic ? " | auto" : ""}`;
   const usual = Object.entries(defaults ?? {}).map(
-    ([preset, value]) => `${preset}: ${value ?? "auto"}`,
+    ([preset, value]) => `${preset}: ${word(value)}`,
   );
   const notes = [range, ...usual].join("; ");
   return [`--${dashed(key)} …`, `${meaning} (${notes})`];
+}
+
+/** @param {unknown} value */
+function word(value) {
+  return typeof value === "boolean" ? (value ? "on" : "off") : String(value ?? "auto");
 }
 
 /** @param {(string | undefined)[][]} rows */

@@ -27,7 +27,7 @@ export function scene(core, words) {
   }
   const [width, height] = sizeOf(values["size"] ?? "320x240");
   const made = render(core, name, width, height);
-  const out = values["out"] ?? "out";
+  const out = values["out"] ?? name;
   prepare(out);
   const camera = JSON.parse(made.cameraJson);
   const curves = JSON.parse(made.shapesJson);

@@ -37,6 +37,18 @@ pub enum Error {
         /// The picture, as the user knows it.
         name: String,
     },
+    /// Frames that a way of solving has no memory for.
+    #[error(
+        "frames of {width}×{height} pixels need more memory than there is when solved coarse to fine, which takes at most {most} megapixels here: make both smaller, or choose the preset paper"
+    )]
+    Memory {
+        /// Their width.
+        width: usize,
+        /// Their height.
+        height: usize,
+        /// What fits, in millions of pixels.
+        most: usize,
+    },
     /// A flat array that does not fill the picture it is said to be.
     #[error("{what} of {width}×{height} pixels needs {expected} values, but {found} were given")]
     Length {
@@ -61,6 +73,17 @@ pub enum Error {
         first: (usize, usize),
         /// Width and height of the second frame.
         second: (usize, usize),
+    },
+    /// A result and a truth of different sizes.
+    #[error(
+        "what was found is {}×{}, the truth {}×{} pixels; both must be of the same frames",
+        .found.0, .found.1, .truth.0, .truth.1
+    )]
+    TruthDiffers {
+        /// Width and height of what was found.
+        found: (usize, usize),
+        /// Width and height of the truth.
+        truth: (usize, usize),
     },
     /// Twice the same frame.
     #[error(
@@ -113,6 +136,18 @@ pub enum Error {
     /// A setting outside its range.
     #[error("{key} is {value}; it must be a number from {min} to {max}")]
     Option {
+        /// The option's key.
+        key: String,
+        /// What was given.
+        value: String,
+        /// Least value allowed.
+        min: f64,
+        /// Largest value allowed.
+        max: f64,
+    },
+    /// A setting that is counted, outside its range or between whole numbers.
+    #[error("{key} is {value}; it must be a whole number from {min} to {max}")]
+    Count {
         /// The option's key.
         key: String,
         /// What was given.

@@ -139,11 +139,8 @@ fn same_size<T: Copy, U: Copy>(found: &Grid<T>, truth: &Grid<U>) -> Result<(), E
     if found.same_size(truth) {
         return Ok(());
     }
-    Err(Error::Length {
-        what: "a truth",
-        width: truth.width(),
-        height: truth.height(),
-        expected: truth.len(),
-        found: found.len(),
+    Err(Error::TruthDiffers {
+        found: (found.width(), found.height()),
+        truth: (truth.width(), truth.height()),
     })
 }

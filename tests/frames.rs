@@ -76,6 +76,24 @@ fn jpeg_is_read() {
 }
 
 #[test]
+fn a_photograph_held_upright_stands_upright() {
+    let grey = |x, y| image::Luma([(5 * x + 4 * y) as u8]);
+    let picture = image::GrayImage::from_fn(W as u32, H as u32, grey).into();
+    let lying = encode(&picture, ImageFormat::Jpeg);
+    // Exif: one little-endian entry, orientation 6, the picture's top on the right.
+    let mut upright = lying[..2].to_vec();
+    upright.extend(b"\xff\xe1\x00\x22Exif\0\0II*\0\x08\0\0\0\x01\0");
+    upright.extend(b"\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0");
+    upright.extend(&lying[2..]);
+    let lying = Frame::decode(&lying, "lying").unwrap();
+    let upright = Frame::decode(&upright, "upright").unwrap();
+    assert_eq!((upright.width(), upright.height()), (H, W));
+    for (x, y) in pixels() {
+        assert_eq!(upright.grey[(H - 1 - y, x)], lying.grey[(x, y)]);
+    }
+}
+
+#[test]
 fn sixteen_bits_keep_their_fraction() {
     // Steps of a quarter grey level.
     let value = |x: u32, y: u32| (10_000.0 + 64.25 * f64::from(x + 30 * y)) as u16;

@@ -174,11 +174,21 @@ fn numbers_outside_their_range_are_refused_with_the_range() {
             bad.push(json!(min + 0.5));
         }
         for value in bad {
-            let expected = Error::Option {
-                key: d.key.to_owned(),
-                value: value.to_string(),
-                min,
-                max,
+            let (key, value_text) = (d.key.to_owned(), value.to_string());
+            let expected = if whole {
+                Error::Count {
+                    key,
+                    value: value_text,
+                    min,
+                    max,
+                }
+            } else {
+                Error::Option {
+                    key,
+                    value: value_text,
+                    min,
+                    max,
+                }
             };
             let sentence = expected.to_string();
             assert_eq!(read(&json!({ d.key: value })), Err(expected));

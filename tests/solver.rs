@@ -615,3 +615,23 @@ fn the_report_has_every_number_and_time_comes_from_the_clock() {
     assert!(times.iter().all(|t| *t >= 3.0), "{times:?}");
     assert_eq!(number("/seconds/total"), times.iter().sum::<f64>());
 }
+
+/// Natively there is memory enough.
+#[cfg(target_arch = "wasm32")]
+#[test]
+fn frames_beyond_the_memory_of_wasm_are_refused_before_anything_is_done() {
+    let (width, height) = (2400, 1800);
+    let frame = |shift: usize| {
+        let grey = Grid::from_fn(width, height, |x, y| ((x + shift) * (y + 3) % 251) as f32);
+        Frame::from_grey(grey).unwrap()
+    };
+    let pair = FramePair::new(frame(0), frame(1)).unwrap();
+    let camera = Camera::centred(2400.0, width, height).unwrap();
+    let solver = |options| Solver::new(pair.clone(), camera, &[], options);
+    let Err(error) = solver(Options::default()) else {
+        panic!("taken on");
+    };
+    let sentence = error.to_string();
+    assert!(sentence.contains("2400×1800") && sentence.contains("4 megapixels"));
+    assert!(solver(Options::preset(Preset::Paper)).is_ok());
+}

@@ -5,8 +5,8 @@
  */
 
 import { announce } from "./dom";
-import { ask, configure } from "./session";
-import { store } from "./store";
+import { ask, configure, look } from "./session";
+import { store, type State } from "./store";
 import { findingOf } from "./wording";
 import type { Point, Shape } from "./worker/protocol";
 
@@ -102,17 +102,25 @@ function restore(shapes: Shape[], history: { past: Shape[][]; future: Shape[][] 
   const { selected } = store.state;
   store.update({
     ...history,
+    ...scalesFor(shapes),
     shapes,
     finding: null,
     selected: selected !== null && selected < shapes.length ? selected : null,
   });
   void configure();
+  void look();
 }
 
 function record(before: Shape[], after: Shape[], selected: number | null): void {
   const past = [...store.state.past, before].slice(-MAX_UNDO);
-  store.update({ shapes: after, selected, past, future: [], finding: null });
+  store.update({ ...scalesFor(after), shapes: after, selected, past, future: [], finding: null });
   void configure();
+  void look();
+}
+
+/** Factors on depth belong to regions: with another number of them all start at 1 again, as their sliders do. */
+function scalesFor(shapes: Shape[]): Partial<State> {
+  return shapes.length === store.state.shapes.length ? {} : { scales: [] };
 }
 
 /** The same curve elsewhere. */

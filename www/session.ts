@@ -33,7 +33,7 @@ export function onMesh(listener: (mesh: MeshData) => void): void {
   meshListener = listener;
 }
 
-const client = new Client({ progress: show, failure: failed });
+const client = new Client({ progress: show, failure: (failure) => failed(failure, true) });
 
 /** Loads the core and opens the first sequence. */
 export async function start(): Promise<void> {
@@ -168,7 +168,8 @@ let configureAgain = false;
 
 /** Tells the worker of changed curves, camera or options: the latest only, one at a time. */
 export async function configure(): Promise<void> {
-  await attempt(null, configured);
+  // What was wrong with the last setting says nothing of the next.
+  if (await attempt(null, configured)) store.update({ message: null });
 }
 
 async function configured(): Promise<void> {
@@ -218,9 +219,10 @@ async function attempt(phrase: string | null, work: () => Promise<unknown>): Pro
   }
 }
 
-function failed({ message, panic }: Failure): void {
+function failed({ message, panic }: Failure, stopped = panic): void {
   store.update({
-    running: false,
+    // What is refused changes nothing: a run goes on as it was.
+    running: store.state.running && !stopped,
     message: panic
       ? `The computation broke down (${sentence(message)}) It was started afresh; your frames and curves are kept.`
       : sentence(message),

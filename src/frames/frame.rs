@@ -4,7 +4,7 @@
 //! 0–255 with 16-bit input keeping its fraction. It is not linearised: encoded values have noise of
 //! nearly equal size at all brightnesses, which is what least squares assumes.
 
-use image::{DynamicImage, ImageError, ImageReader};
+use image::{DynamicImage, ImageDecoder, ImageError, ImageReader};
 use std::io::Cursor;
 
 use crate::error::Error;
@@ -55,7 +55,10 @@ impl Frame {
         if jpeg_breaks_off(bytes) {
             return Err(unreadable("the file is cut short".to_owned()));
         }
-        let picture = open()?.decode().map_err(refused)?;
+        let mut decoder = open()?.into_decoder().map_err(refused)?;
+        let upright = decoder.orientation().map_err(refused)?;
+        let mut picture = DynamicImage::from_decoder(decoder).map_err(refused)?;
+        picture.apply_orientation(upright);
         Ok(Self::from_dynamic(&picture))
     }
 

@@ -122,11 +122,11 @@ static CATALOGUE: &[Descriptor] = &[
             choices: &[
                 Choice {
                     value: "descent",
-                    label: "descent on Z (9), one scale, one field",
+                    label: "descent (9), one field",
                 },
                 Choice {
                     value: "layers",
-                    label: "linear in 1/Z, coarse to fine, a field per region",
+                    label: "1/Z, a field per region",
                 },
             ],
         },

@@ -82,19 +82,28 @@ impl Descriptor {
             },
             Control::Integer { min, max } => match value.as_u64() {
                 Some(v) if (min..=max).contains(&(v as f64)) => Ok(()),
-                _ => Err(outside(min, max)),
+                _ => Err(Error::Count {
+                    key: self.key.to_owned(),
+                    value: value.to_string(),
+                    min,
+                    max,
+                }),
             },
             Control::Choice { choices } => {
                 let words: Vec<&str> = choices.iter().map(|c| c.value).collect();
                 match value.as_str() {
                     Some(v) if words.contains(&v) => Ok(()),
-                    _ => Err(choice(self.key, value, &words)),
+                    _ => Err(choice(&of(self.key), value, &words)),
                 }
             }
             Control::Toggle if value.is_boolean() => Ok(()),
-            Control::Toggle => Err(choice(self.key, value, &["true", "false"])),
+            Control::Toggle => Err(choice(&of(self.key), value, &["true", "false"])),
         }
     }
+}
+
+fn of(key: &str) -> String {
+    format!("value of {key}")
 }
 
 pub(super) fn choice(what: &str, value: &Value, choices: &[&str]) -> Error {

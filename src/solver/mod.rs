@@ -55,12 +55,20 @@ pub struct Solver {
     clock: fn() -> f64,
 }
 
+/// Pixels that the coarse-to-fine approach holds in the 4 GiB of WebAssembly: it takes 700 bytes for each with three
+/// curves, nearly 1000 with eight. Without bound where memory is not.
+const MOST_PIXELS: Option<usize> = if usize::BITS == 32 {
+    Some(4_000_000)
+} else {
+    None
+};
+
 impl Solver {
     /// A solver at its start: the curves as drawn, the same depth everywhere, nothing moving.
     ///
     /// # Errors
-    /// What [`Shape::level_set`] finds wrong with a curve, [`Error::TooManyCurves`], and what
-    /// [`Options::validate`] finds wrong with a setting.
+    /// What [`Shape::level_set`] finds wrong with a curve, [`Error::TooManyCurves`], what [`Options::validate`] finds
+    /// wrong with a setting, and [`Error::Memory`].
     pub fn new(
         pair: FramePair,
         camera: Camera,
@@ -68,6 +76,7 @@ impl Solver {
         options: Options,
     ) -> Result<Self, Error> {
         options.validate()?;
+        check_memory(&pair, &options)?;
         let level_sets = level_sets(&pair, shapes)?;
         let camera = Camera::new(camera.focal, camera.cx, camera.cy)?;
         let pair = Rc::new(pair);
@@ -180,6 +189,7 @@ impl Solver {
     /// What [`Options::validate`] finds; then nothing is changed.
     pub fn set_options(&mut self, options: Options) -> Result<(), Error> {
         options.validate()?;
+        check_memory(&self.pair, &options)?;
         let other = options.depth != self.options.depth;
         self.options = options;
         if other {
@@ -248,6 +258,20 @@ fn begin(
             Box::new(SingleScale::new(pair.clone(), camera, level_sets, options))
         }
         DepthMethod::Layers => Box::new(Layers::new(pair.clone(), camera, level_sets, options)),
+    }
+}
+
+fn check_memory(pair: &FramePair, options: &Options) -> Result<(), Error> {
+    let (width, height) = (pair.width(), pair.height());
+    match MOST_PIXELS {
+        Some(most) if options.depth == DepthMethod::Layers && width * height > most => {
+            Err(Error::Memory {
+                width,
+                height,
+                most: most / 1_000_000,
+            })
+        }
+        _ => Ok(()),
     }
 }
 

@@ -45,6 +45,7 @@ impl From<Error> for JsValue {
             | Error::TooManyCurves(_)
             | Error::CurveNotFinite { .. }
             | Error::Option { .. }
+            | Error::Count { .. }
             | Error::Choice { .. } => "SettingError",
             _ => "InputError",
         });

@@ -39,8 +39,14 @@ export function mountCamera(): void {
     void configure();
   };
   focal.input.addEventListener("change", () => set({ focal: asNumber(focal.input) ?? 0 }));
-  const byAngle = (input: HTMLInputElement) => () =>
-    set({ focal: focalOf(store.state.width, asNumber(input) ?? 0) });
+  const byAngle = (input: HTMLInputElement) => () => {
+    const degrees = asNumber(input);
+    if (degrees !== undefined && degrees > 0 && degrees < 180) {
+      set({ focal: focalOf(store.state.width, degrees) });
+    } else {
+      store.update({ message: "The field of view must be a number of degrees between 0 and 180." });
+    }
+  };
   view.input.addEventListener("change", byAngle(view.input));
   slider.addEventListener("change", byAngle(slider));
   slider.addEventListener("input", () => {

@@ -17,8 +17,9 @@ export function mountMessage(): void {
     },
   );
   // What was wrong with the last pair or the last run says nothing about the next.
+  store.watch(({ source }) => [source], dismiss);
   store.watch(
-    ({ source, running }) => [source, running],
+    ({ running }) => [running],
     ({ running }) => running && dismiss(),
   );
 }

@@ -46,8 +46,8 @@ async function guard<T>(work: () => T | Promise<T>): Promise<T> {
     await ready;
     return await work();
   } catch (error) {
-    running = false;
     const { message, panic } = describe(error);
+    if (panic) running = false;
     throw Object.assign(new Error(message), { name: panic ? "Panic" : "Error" });
   }
 }
