@@ -209,6 +209,13 @@ test("focal length and field of view go together", async ({ opened: page }) => {
   await page.getByLabel("Focal length f, px").fill(String(width));
   await page.getByLabel("Focal length f, px").press("Enter");
   await expect(page.getByLabel("Field of view, °")).toHaveValue("53.1");
+  for (const wrong of ["", "0", "200"]) {
+    await page.getByLabel("Field of view, °").fill(wrong);
+    await page.getByLabel("Field of view, °").press("Enter");
+    await expect(message(page)).toContainText("between 0 and 180");
+    expect(await read(page, (state) => state.camera.focal)).toBe(width);
+    await page.locator("#message-close").click();
+  }
 });
 
 test("the focal length is found where the frames tell it, and kept where they do not", async ({

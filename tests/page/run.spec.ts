@@ -194,3 +194,28 @@ test("a weight can be changed while it runs", async ({ opened: page }) => {
   await goesOn(page);
   await expect(page.locator("#message")).toBeHidden();
 });
+
+test("a refused value leaves the run alone, and its sentence goes with it", async ({
+  opened: page,
+}) => {
+  await page.getByText("Weights and choices").click();
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+  const epsilon = page.locator("#option-epsilon");
+  const good = await epsilon.inputValue();
+  await epsilon.fill("99");
+  await epsilon.press("Enter");
+  await expect(page.locator("#message")).toContainText("Epsilon is 99");
+  expect(await read(page, (state) => state.running)).toBe(true);
+  await goesOn(page);
+  await epsilon.fill(good);
+  await epsilon.press("Enter");
+  await expect(page.locator("#message")).toBeHidden();
+  await pauseRun(page);
+  const focal = page.getByLabel("Focal length f, px");
+  await focal.fill("-5");
+  await focal.press("Enter");
+  await expect(page.locator("#message")).toContainText("focal length is -5");
+  await openScene(page, "head");
+  await expect(page.locator("#message")).toBeHidden();
+});

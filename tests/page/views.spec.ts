@@ -74,6 +74,17 @@ test("the depth slider of a region changes depth, not its outline", async ({ ope
   await expect.poll(async () => (await look(page)).print, { timeout: 30_000 }).toBe(labels.print);
 });
 
+test("depth factors start anew with another number of regions, as their sliders do", async ({
+  opened: page,
+}) => {
+  await runPasses(page, DEEP);
+  await page.locator("#scale-0").fill("2");
+  expect(await read(page, (state) => state.scales)).toEqual([4, 1, 1]);
+  await page.getByRole("button", { name: "Delete curve 1" }).click();
+  expect(await read(page, (state) => state.scales)).toEqual([]);
+  await expect(page.locator("#scale-0")).toHaveValue("0");
+});
+
 test("the relief stands, turns by keyboard and mouse, and takes plaster", async ({
   opened: page,
 }) => {

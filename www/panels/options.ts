@@ -123,7 +123,10 @@ function field(descriptor: OptionDescriptor) {
       slider.disabled = free;
       exact.disabled = free;
       const shown = free ? chosen : Number(present);
-      exact.value = shown === null ? "" : String(Number(shown.toPrecision(4)));
+      // Not under the fingers of someone who types while it runs.
+      if (document.activeElement !== exact) {
+        exact.value = shown === null ? "" : String(Number(shown.toPrecision(4)));
+      }
       exact.placeholder = free ? "auto" : "";
       slider.value = String(shown === null ? 0 : toSlider(descriptor, shown));
       slider.setAttribute(
