@@ -110,8 +110,8 @@ impl Region {
         .solve(&self.motion)
     }
 
-    /// Steps of motion and depth: `least`, and up to `most` while T still turns, or ω changes, by [`TURNS`] and more. How deep relief is
-    /// and how far a body turns creep together, which takes dozens where two views hardly tell them apart.
+    /// Steps of motion and depth: `least`, and up to `most` while T still turns, or ω changes, by [`TURNS`] and more. How
+    /// deep relief is and how far a body turns creep together, which takes dozens where two views hardly tell them apart.
     pub fn fit(&mut self, evidence: &Evidence, prior: &FieldPrior, [least, most]: [usize; 2]) {
         if self.kind == Kind::Still {
             return;
