@@ -106,7 +106,7 @@ impl Blocks {
         }
     }
 
-    /// The best motion over all directions of T; `None` where fewer than [`FEWEST`] blocks tell of any. `rotates` says
+    /// The best motion over all directions of T; `None` where fewer than four blocks tell of any. `rotates` says
     /// whether ω is free.
     pub fn search(&self, rotates: bool) -> Option<Candidate> {
         if self.moments.len() < FEWEST {

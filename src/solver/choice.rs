@@ -7,10 +7,10 @@
 //! C = ( Σ ρ(r²/v) + (smoothness + relief)/σ² + 2 p ) / n0 + d ln(n/n0) + b
 //! ```
 //!
-//! ρ the robust χ², that of a hidden pixel where it leaves the frame, d the kind's parameters (still 0, rotation 3, translation 2, full 5; T's length is not
-//! observable), n the region's pixels, [`CORRELATED`] = n0 the pixels that one independent sample of noise
-//! spreads over, and p = Σ h/(h + Σc) the parameters' worth of freedom that depth takes (h its data weight,
-//! c its smoothing at a pixel), which kinds that translate pay for: with depth to adjust, noise alone can
+//! ρ the robust χ², on the average where a pixel leaves the frame, d the kind's parameters (still 0, rotation 3,
+//! translation 2, full 5; T's length is not observable), n the region's pixels, [`CORRELATED`] = n0 the pixels that one
+//! independent sample of noise spreads over, and p = Σ h/(h + Σc) the parameters' worth of freedom that depth takes (h its
+//! data weight, c its smoothing at a pixel), which kinds that translate pay for: with depth to adjust, noise alone can
 //! be explained. The d ln n is Schwarz's (1978), the 2p Akaike's. b = [`HOLLOW`] for a body whose surface is
 //! hollow (`depth/hollow.rs`), else 0: bodies are seen from outside. A simpler kind is taken when its C is
 //! within `max( Σ (δ‖∇I‖)²/v, ν n ) / 2 n0` of the least: what image motion off by δ = [`INTERPOLATION`]
@@ -24,7 +24,6 @@
 
 use crate::depth::{FieldPrior, hollow};
 use crate::motion::Kind;
-use crate::occlusion::HIDDEN;
 
 use super::evidence::{Evidence, Role};
 use super::region::{Region, certainty};
@@ -151,15 +150,17 @@ fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
     let (mut misfit, mut pixels) = (0.0, 0.0);
     let bends = region.bends(&linearisation, evidence, &weight);
     let edges = prior.edges(&bends);
+    let mut seen = 0.0;
     for (i, &own) in evidence.owned.data().iter().enumerate() {
-        pixels += f64::from(own);
-        misfit += f64::from(own)
-            * if linearisation.inside.data()[i] {
-                evidence.misfit(&linearisation, i)
-            } else {
-                f64::from(HIDDEN)
-            };
+        let own = f64::from(own);
+        pixels += own;
+        if linearisation.inside.data()[i] {
+            seen += own;
+            misfit += own * evidence.misfit(&linearisation, i);
+        }
     }
+    // What leaves the frame is neither for the motion nor against it.
+    misfit *= pixels / f64::max(seen, 1.0);
     let freedom = if region.kind.translates() {
         edges.determined(&certainty(&linearisation, &weight))
     } else {
