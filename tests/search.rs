@@ -59,6 +59,7 @@ fn constraints(motion: &RigidMotion) -> Linearisation {
 fn search(motion: &RigidMotion, rotates: bool) -> Candidate {
     let weight = Grid::new(W, H, 1.0f32);
     let blocks = Blocks::gather(&camera(), &constraints(motion), &weight, SIDE, 0.0);
+    assert!(blocks.enough());
     blocks.search(rotates).unwrap()
 }
 
@@ -124,15 +125,7 @@ fn the_true_direction_costs_least_and_its_opposite_more() {
 fn too_few_pixels_are_no_region_to_search() {
     let line = constraints(&motion([0.05, 0.0, 0.0], [0.0; 3]));
     let none = Grid::new(W, H, 0.0f32);
-    assert!(
-        Blocks::gather(&camera(), &line, &none, SIDE, 0.0)
-            .search(true)
-            .is_none()
-    );
+    assert!(!Blocks::gather(&camera(), &line, &none, SIDE, 0.0).enough());
     let corner = Grid::from_fn(W, H, |x, y| f32::from(x < SIDE && y < SIDE));
-    assert!(
-        Blocks::gather(&camera(), &line, &corner, SIDE, 0.0)
-            .search(true)
-            .is_none()
-    );
+    assert!(!Blocks::gather(&camera(), &line, &corner, SIDE, 0.0).enough());
 }

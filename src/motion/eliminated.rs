@@ -26,8 +26,6 @@ const DIRECTIONS: usize = 240;
 const REFINED: usize = 4;
 /// Last step of the refinement, in radians.
 const FINEST_STEP: f64 = 2e-3;
-/// Blocks that a motion is told from at least.
-const FEWEST: usize = 4;
 /// ε, as a share of the mean of Tᵀ M_ss T.
 const RIDGE: f64 = 1e-3;
 
@@ -106,12 +104,13 @@ impl Blocks {
         }
     }
 
-    /// The best motion over all directions of T; `None` where fewer than four blocks tell of any. `rotates` says
-    /// whether ω is free.
+    /// Whether there are blocks enough to tell a motion from.
+    pub fn enough(&self) -> bool {
+        self.moments.len() >= 4
+    }
+
+    /// The best motion over all directions of T. `rotates` says whether ω is free.
     pub fn search(&self, rotates: bool) -> Option<Candidate> {
-        if self.moments.len() < FEWEST {
-            return None;
-        }
         let mut found: Vec<Candidate> = half_sphere()
             .filter_map(|t| self.judge(t, rotates))
             .collect();

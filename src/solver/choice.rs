@@ -7,7 +7,7 @@
 //! C = ( Σ ρ(r²/v) + (smoothness + relief)/σ² + 2 p ) / n0 + d ln(n/n0) + b
 //! ```
 //!
-//! ρ the robust χ², on the average where a pixel leaves the frame, d the kind's parameters (still 0, rotation 3,
+//! ρ the robust χ², nothing where a pixel leaves the frame, d the kind's parameters (still 0, rotation 3,
 //! translation 2, full 5; T's length is not observable), n the region's pixels, [`CORRELATED`] = n0 the pixels that one
 //! independent sample of noise spreads over, and p = Σ h/(h + Σc) the parameters' worth of freedom that depth takes (h its
 //! data weight, c its smoothing at a pixel), which kinds that translate pay for: with depth to adjust, noise alone can
@@ -150,17 +150,13 @@ fn criterion(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> f64 {
     let (mut misfit, mut pixels) = (0.0, 0.0);
     let bends = region.bends(&linearisation, evidence, &weight);
     let edges = prior.edges(&bends);
-    let mut seen = 0.0;
-    for (i, &own) in evidence.owned.data().iter().enumerate() {
-        let own = f64::from(own);
-        pixels += own;
-        if linearisation.inside.data()[i] {
-            seen += own;
-            misfit += own * evidence.misfit(&linearisation, i);
+    for i in 0..weight.len() {
+        if evidence.owned.data()[i] <= 0.0 {
+            continue;
         }
+        pixels += 1.0;
+        misfit += evidence.misfit(&linearisation, i);
     }
-    // What leaves the frame is neither for the motion nor against it.
-    misfit *= pixels / f64::max(seen, 1.0);
     let freedom = if region.kind.translates() {
         edges.determined(&certainty(&linearisation, &weight))
     } else {
