@@ -204,7 +204,11 @@ describe("a wrong command line ends with 2 and a sentence", () => {
     ["a weight below 0", [...pair, ...FOCAL, "--lambda", "-1"], /lambda is -1.*from 0/],
     ["no passes", [...pair, ...FOCAL, "--iterations", "0"], /max_passes is 0/],
     ["half a pass", [...pair, ...FOCAL, "--max-passes", "1.5"], /max_passes is 1\.5/],
-    ["an unknown choice", [...pair, ...FOCAL, "--diffusion", "linear"], /"linear" is no value of diffusion/],
+    [
+      "an unknown choice",
+      [...pair, ...FOCAL, "--diffusion", "linear"],
+      /"linear" is no value of diffusion/,
+    ],
   ];
   for (const [name, words, sentence] of cases) test(name, () => refused(words, 2, sentence));
 });
