@@ -176,8 +176,9 @@ fn motion_is_small_and_scales_with_the_picture() {
             (a / b - 1.0).abs() < 0.1,
             "{name}: {a} and {b} of the width"
         );
-        // Between a half and four pixels at a width of 320.
-        assert!((0.5..4.0).contains(&(320.0 * b)), "{name}: {}", 320.0 * b);
+        // Between a half and two pixels at a width of 320, and twice as much where the camera passes something near.
+        let most = if name == "columns" { 4.0 } else { 2.0 };
+        assert!((0.5..most).contains(&(320.0 * b)), "{name}: {}", 320.0 * b);
     }
 }
 

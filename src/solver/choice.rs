@@ -37,8 +37,8 @@ const UNSURE: f64 = 0.07;
 /// b: in noise a body's mirror image has been seen to explain it better by 20, where folds are smoothed over; with little
 /// noise the image costs hundreds.
 const HOLLOW: f64 = 30.0;
-/// Steps of motion and depth that each kind is fitted with, those that each depth of relief is, whose fit has farther to go,
-/// and those with which the best of each kind goes on.
+/// Steps of motion and depth that each kind is fitted with, those that each depth of relief is, whose fit has farther to
+/// go, and those with which the best of each kind goes on.
 const STEPS: [usize; 3] = [3, 12, 5];
 
 /// A fit and its C.
