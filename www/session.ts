@@ -168,8 +168,10 @@ let configureAgain = false;
 
 /** Tells the worker of changed curves, camera or options: the latest only, one at a time. */
 export async function configure(): Promise<void> {
-  // What was wrong with the last setting says nothing of the next.
-  if (await attempt(null, configured)) store.update({ message: null });
+  // What was wrong with the last setting says nothing of the next. Taken down now, not once the
+  // worker has answered: by then the message may be that of a later one.
+  store.update({ message: null });
+  await attempt(null, configured);
 }
 
 async function configured(): Promise<void> {

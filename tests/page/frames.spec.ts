@@ -218,6 +218,24 @@ test("focal length and field of view go together", async ({ opened: page }) => {
   }
 });
 
+test("what is wrong with a value stays said when the worker accepts the one before", async ({
+  opened: page,
+}) => {
+  await page.evaluate(() => {
+    const type = (id: string, value: string) => {
+      const field = document.getElementById(id) as HTMLInputElement;
+      field.value = value;
+      field.dispatchEvent(new Event("change"));
+    };
+    type("focal", "300");
+    type("fov", "200");
+  });
+  // The worker answers in turn, so that it has taken the focal length by now.
+  await page.getByRole("button", { name: "Find f" }).click();
+  await expect(page.locator("#camera")).toContainText("do not tell f");
+  await expect(message(page)).toContainText("between 0 and 180");
+});
+
 test("the focal length is found where the frames tell it, and kept where they do not", async ({
   opened: page,
 }) => {
