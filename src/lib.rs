@@ -69,6 +69,7 @@ pub mod options;
 pub mod scene;
 pub mod score;
 pub mod solver;
+mod srgb;
 pub mod start;
 pub mod view;
 pub mod warp;

@@ -48,6 +48,14 @@ pub struct Edges {
 }
 
 impl FieldPrior {
+    /// The same with `share` of its strength.
+    pub fn softened(&self, share: f64) -> Self {
+        Self {
+            strength: share * self.strength,
+            ..self.clone()
+        }
+    }
+
     /// c for every edge.
     pub fn edges(&self, bends: &Bends) -> Edges {
         let (width, height) = (bends.right.width(), bends.right.height());

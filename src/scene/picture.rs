@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use super::cast::Caster;
+use crate::srgb;
 
 /// Samples per pixel, each way.
 pub(super) const FINE: usize = 3;
@@ -60,13 +61,7 @@ impl Caster<'_> {
 
 /// Linear light as sRGB 0–255, in whole numbers.
 fn encode(linear: DVec3) -> [f32; 3] {
-    linear.to_array().map(|c| {
-        let c = c.clamp(0.0, 1.0);
-        let s = if c <= 0.003_130_8 {
-            12.92 * c
-        } else {
-            1.055 * c.powf(1.0 / 2.4) - 0.055
-        };
-        (255.0 * s).round() as f32
-    })
+    linear
+        .to_array()
+        .map(|c| (255.0 * srgb::encode(c)).round() as f32)
 }

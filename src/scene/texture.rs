@@ -7,6 +7,7 @@
 use glam::DVec3;
 
 use super::noise::octaves;
+use crate::srgb::decode;
 
 /// How a colour between the three of a texture is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,12 +83,8 @@ impl Texture {
 /// The colour 0xRRGGBB, as a screen shows it, in linear light.
 pub fn srgb(hex: u32) -> DVec3 {
     let channel = |shift: u32| {
-        let c = f64::from((hex >> shift) & 255) / 255.0;
-        if c <= 0.040_45 {
-            c / 12.92
-        } else {
-            ((c + 0.055) / 1.055).powf(2.4)
-        }
+        let byte = (hex >> shift) & 255;
+        decode(f64::from(byte) / 255.0)
     };
     DVec3::new(channel(16), channel(8), channel(0))
 }

@@ -84,11 +84,7 @@ impl Region {
     /// Motion by a joint step in which depth is all but free, then depth alone, as smooth as it is to be. Where depth leaps,
     /// smoothness has T turn until leaps are smaller, by several degrees.
     fn fit_in_turn(&mut self, evidence: &Evidence, prior: &FieldPrior) {
-        let free = FieldPrior {
-            strength: FREE * prior.strength,
-            ..prior.clone()
-        };
-        self.motion = self.joint_step(evidence, &free).motion;
+        self.motion = self.joint_step(evidence, &prior.softened(FREE)).motion;
         self.fit_depth(evidence, prior);
     }
 

@@ -74,10 +74,7 @@ fn trials(region: &Region, evidence: &Evidence, prior: &FieldPrior) -> Vec<Vec<f
         let known = evidence.without(withheld);
         let mut part = region.clone();
         for (share, blocks) in SHARES.iter().zip(&mut trials) {
-            let prior = FieldPrior {
-                strength: share * prior.strength,
-                ..prior.clone()
-            };
+            let prior = prior.softened(*share);
             for _ in 0..STEPS {
                 part.fit_depth(&known, &prior);
             }

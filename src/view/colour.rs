@@ -1,26 +1,15 @@
-//! sRGB, linear light, and OKLCH, in which equal steps look equal.
-//!
-//! Linear light is 0–1. sRGB's curve is that of IEC 61966-2-1, OKLab that of B. Ottosson (2020).
+//! sRGB bytes, and OKLCH, in which equal steps look equal (OKLab by B. Ottosson, 2020). Linear light is 0–1.
+
+use crate::srgb;
 
 /// Linear light of an sRGB byte.
 pub fn decode(byte: u8) -> f32 {
-    let c = f32::from(byte) / 255.0;
-    if c <= 0.04045 {
-        c / 12.92
-    } else {
-        ((c + 0.055) / 1.055).powf(2.4)
-    }
+    srgb::decode(f64::from(byte) / 255.0) as f32
 }
 
 /// The sRGB byte nearest to a linear light, which is clipped to 0–1.
 pub fn encode(linear: f32) -> u8 {
-    let c = linear.clamp(0.0, 1.0);
-    let c = if c <= 0.003_130_8 {
-        12.92 * c
-    } else {
-        1.055 * c.powf(1.0 / 2.4) - 0.055
-    };
-    (255.0 * c).round() as u8
+    (255.0 * srgb::encode(f64::from(linear))).round() as u8
 }
 
 /// Relative luminance of linear light (Rec. 709 weights), 0–1.
