@@ -17,10 +17,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 
+/// Least and greatest focal length, in pixels: from nearly a half-space to a telescope.
+pub const FOCAL_RANGE: [f64; 2] = [1.0, 1e6];
+/// How far from the frame's first pixel the principal point may be, in pixels.
+pub const FARTHEST_CENTRE: f64 = 1e6;
+
 /// A pinhole camera with square pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Camera {
-    /// Focal length in pixels, above 0.
+    /// Focal length in pixels, within [`FOCAL_RANGE`].
     pub focal: f64,
     /// Column of the principal point, pixel (0, 0) being the centre of the top-left pixel.
     pub cx: f64,
@@ -42,7 +47,7 @@ impl Camera {
     /// `width × height` frame.
     ///
     /// # Errors
-    /// [`Error::Focal`] unless `focal` is finite and above 0.
+    /// [`Error::Focal`] unless `focal` is within [`FOCAL_RANGE`].
     pub fn centred(focal: f64, width: usize, height: usize) -> Result<Self, Error> {
         let (cx, cy) = ((width as f64 - 1.0) / 2.0, (height as f64 - 1.0) / 2.0);
         Self::new(focal, cx, cy)
@@ -51,13 +56,15 @@ impl Camera {
     /// A camera with a principal point of its own.
     ///
     /// # Errors
-    /// [`Error::Focal`] unless `focal` is finite and above 0, [`Error::Centre`] unless the
-    /// principal point is finite.
+    /// [`Error::Focal`] unless `focal` is within [`FOCAL_RANGE`], [`Error::Centre`] unless both coordinates of the
+    /// principal point are within ±[`FARTHEST_CENTRE`].
     pub fn new(focal: f64, cx: f64, cy: f64) -> Result<Self, Error> {
-        if !(focal.is_finite() && focal > 0.0) {
+        let [least, greatest] = FOCAL_RANGE;
+        if !(least..=greatest).contains(&focal) {
             return Err(Error::Focal(focal));
         }
-        if !(cx.is_finite() && cy.is_finite()) {
+        let near = |c: f64| c.abs() <= FARTHEST_CENTRE;
+        if !(near(cx) && near(cy)) {
             return Err(Error::Centre(cx, cy));
         }
         Ok(Self { focal, cx, cy })
@@ -78,11 +85,6 @@ impl Camera {
             self.focal * point.x / point.z + self.cx,
             self.focal * point.y / point.z + self.cy,
         )
-    }
-
-    /// Horizontal field of view in degrees of a frame `width` pixels wide.
-    pub fn field_of_view(&self, width: usize) -> f64 {
-        2.0 * (width as f64 / (2.0 * self.focal)).atan().to_degrees()
     }
 
     /// Equation (1): image motion in pixels per frame of what pixel `(px, py)` shows, at inverse

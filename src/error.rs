@@ -1,6 +1,7 @@
 //! Every way in which input can be wrong, as a sentence that says what, with sizes and limits, and
 //! what to do about it.
 
+use crate::camera::{FARTHEST_CENTRE, FOCAL_RANGE};
 use crate::frames::{MAX_SIDE, MIN_SIDE};
 use crate::options::MAX_CURVES;
 
@@ -100,11 +101,14 @@ pub enum Error {
     },
     /// A focal length that no camera has.
     #[error(
-        "the focal length is {0} pixels; it must be a finite number above 0, such as the frame's width"
+        "the focal length is {0} pixels; it must be a number from {least} to {greatest}, such as the frame's width",
+        least = FOCAL_RANGE[0], greatest = FOCAL_RANGE[1]
     )]
     Focal(f64),
     /// A principal point that is no point.
-    #[error("the principal point is ({0}, {1}); both coordinates must be finite numbers")]
+    #[error(
+        "the principal point is ({0}, {1}); both coordinates must be numbers from -{FARTHEST_CENTRE} to {FARTHEST_CENTRE}, such as the middle of the frame"
+    )]
     Centre(f64, f64),
     /// A number too many of curves.
     #[error("{0} curves are drawn, at most {MAX_CURVES} are possible; delete some")]

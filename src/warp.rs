@@ -176,6 +176,17 @@ impl Scale {
 }
 
 impl Linearisation {
+    /// Takes a change of brightness, in grey levels, out of the residuals of points that stay in the frame.
+    pub fn allow_for(&mut self, change: &Grid<f32>) {
+        let points = self.rows.data_mut().iter_mut().zip(self.inside.data());
+        for ((row, _), change) in points
+            .zip(change.data())
+            .filter(|((_, inside), _)| **inside)
+        {
+            row[RESIDUAL] -= change;
+        }
+    }
+
     /// The second frame's gradient at the place reached less the first's, at pixel `i` of the window.
     pub fn gradient_change(&self, scale: &Scale, i: usize) -> [f32; 2] {
         let at = self.window.place(i);

@@ -5,7 +5,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use glam::DVec3;
 use relievo::scene::{self, Sequence};
-use relievo::start::automatic;
+use relievo::start::{automatic, focal_length};
 use relievo::{Camera, Frame, FramePair, Grid, Options, RigidMotion, Shape, Solver};
 
 fn pair(frames: [Frame; 2]) -> FramePair {
@@ -307,5 +307,29 @@ fn frames_of_any_size_are_taken() {
         let frames = [0.0, 0.8].map(|shift| stripes(width, height, shift));
         let camera = Camera::centred(100.0, width, height).unwrap();
         assert_eq!(automatic(&pair(frames), &camera), [], "{width}×{height}");
+    }
+}
+
+#[test]
+fn no_camera_is_too_odd_to_look_through() {
+    let sequence = scene::render("squares", 96, 72).unwrap();
+    let pair = pair(sequence.frames.clone());
+    let odd = [
+        Camera::new(1.0, 47.5, 35.5),
+        Camera::new(1e6, 47.5, 35.5),
+        Camera::new(64.0, 1e6, -1e6),
+        Camera::new(1.0, 1e6, 1e6),
+    ];
+    let by_hand = Camera {
+        focal: f64::NAN,
+        cx: 1e300,
+        cy: 0.0,
+    };
+    for camera in odd.map(Result::unwrap).into_iter().chain([by_hand]) {
+        let curves = automatic(&pair, &camera);
+        assert!(curves.len() <= 4, "{camera:?}");
+        if let Some(found) = focal_length(&pair, &camera) {
+            assert!(found.focal.is_finite() && found.focal > 0.0, "{camera:?}");
+        }
     }
 }

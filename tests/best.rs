@@ -1,139 +1,18 @@
-//! The solver with the settings of the default preset: coarse to fine, a depth field per region.
+//! Passes of the preset `best` at all its scales, and what may change between them.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
+mod solving;
+
 use relievo::options::Preset;
 use relievo::scene::{self, Sequence};
-use relievo::score::{compare, compare_flow};
-use relievo::{
-    Error, Frame, FramePair, Grid, Interpretation, Options, Shape, Solver, Status, horn_schunck,
-};
-
-fn best() -> Options {
-    Options::preset(Preset::Best)
-}
-
-fn pair(sequence: &Sequence) -> FramePair {
-    let [first, second] = sequence.frames.clone();
-    FramePair::new(first, second).unwrap()
-}
-
-fn start(sequence: &Sequence, curves: &[Shape], options: Options) -> Solver {
-    Solver::new(pair(sequence), sequence.truth.camera, curves, options).unwrap()
-}
+use relievo::{Error, Frame, FramePair, Grid, Options, Shape, Solver, Status};
+use solving::{best, circle, differing, everything, run, start, whole};
 
 /// Small frames that are solved at more than one scale.
 fn squares() -> Sequence {
     scene::render("squares", 272, 204).unwrap()
-}
-
-fn run(solver: &mut Solver) -> Interpretation {
-    while solver.step() == Status::Running {}
-    solver.interpretation()
-}
-
-fn circle(x: f64, y: f64, r: f64) -> Shape {
-    Shape::Circle { x, y, r }
-}
-
-fn differing(a: &Grid<u8>, b: &Grid<u8>) -> f64 {
-    let pairs = a.data().iter().zip(b.data());
-    pairs.filter(|(a, b)| a != b).count() as f64 / a.len() as f64
-}
-
-/// All that can be seen of a solver from outside, as one text.
-fn everything(solver: &Solver) -> String {
-    let parts = (
-        solver.report(),
-        solver.interpretation(),
-        solver.contours(),
-        solver.options(),
-    );
-    format!("{parts:?}")
-}
-
-/// That an interpretation is whole: sizes, finite numbers, depth in front of the camera.
-fn whole(found: &Interpretation, sequence: &Sequence, regions: usize) {
-    let labels = &sequence.truth.labels;
-    assert_eq!(found.regions(), regions);
-    assert!(found.labels.same_size(labels) && found.depth.same_size(labels));
-    assert!(found.flow.u.same_size(labels) && found.flow.v.same_size(labels));
-    assert!(found.confidence.same_size(labels) && found.occluded.same_size(labels));
-    assert!(
-        found
-            .labels
-            .data()
-            .iter()
-            .all(|&l| usize::from(l) < regions)
-    );
-    assert!(found.depth.data().iter().all(|z| z.is_finite() && *z > 0.0));
-    assert!(found.flow.u.data().iter().all(|u| u.is_finite()));
-    assert!(found.flow.v.data().iter().all(|v| v.is_finite()));
-    let shares = found.confidence.data().iter();
-    assert!(shares.clone().all(|c| (0.0..=1.0).contains(c)));
-    let motions = found.motions.iter();
-    assert!(
-        motions
-            .clone()
-            .all(|m| m.translation.is_finite() && m.rotation.is_finite())
-    );
-}
-
-/// Labels wrong and AEE.
-fn scores(found: &Interpretation, sequence: &Sequence) -> (f64, f64) {
-    let scores = compare(found, &sequence.truth).unwrap();
-    (scores.labels_wrong, scores.aee.unwrap())
-}
-
-/// Solves a sequence; AEE is to be below `ratio` times that of the preset `paper` and of Horn–Schunck.
-fn promise(sequence: &Sequence, wrong: f64, ratio: f64) {
-    let name = &sequence.name;
-    let mut solver = start(sequence, &sequence.curves, best());
-    let found = run(&mut solver);
-    whole(&found, sequence, sequence.truth.regions());
-    assert_ne!(solver.status(), Status::Diverged, "{name}");
-    assert!(solver.history().iter().all(|e| e.is_finite() && *e > 0.0));
-    let (labels, aee) = scores(&found, sequence);
-    assert!(labels < wrong, "{name}: {labels} of all labels are wrong");
-    let paper = Options::preset(Preset::Paper);
-    let (paper_labels, paper) = scores(
-        &run(&mut start(sequence, &sequence.curves, paper)),
-        sequence,
-    );
-    assert!(
-        labels < 0.8 * paper_labels,
-        "{name}: {labels}, {paper_labels}"
-    );
-    assert!(
-        aee < ratio * paper,
-        "{name}: AEE {aee}, the paper's {paper}"
-    );
-    let (alpha, sweeps) = (horn_schunck::ALPHA, horn_schunck::SWEEPS);
-    let flow = horn_schunck::solve(&pair(sequence), alpha, sweeps);
-    let (baseline, _) = compare_flow(&flow, &sequence.truth.flow, None)
-        .unwrap()
-        .unwrap();
-    assert!(
-        aee < ratio * baseline,
-        "{name}: AEE {aee}, Horn–Schunck {baseline}"
-    );
-}
-
-#[test]
-fn independent_blocks_are_found() {
-    promise(&scene::render("blocks", 160, 120).unwrap(), 0.04, 0.6);
-}
-
-#[test]
-fn a_head_before_its_wall_is_found() {
-    promise(&scene::render("head", 160, 120).unwrap(), 0.03, 0.6);
-}
-
-#[test]
-fn blocks_that_move_by_several_pixels_are_found() {
-    let sequence = scene::variant("blocks", 3, 0.0, 13.0, 100, 75).unwrap();
-    promise(&sequence, 0.1, 0.5);
 }
 
 #[test]
@@ -155,23 +34,6 @@ fn the_energy_settles() {
         let most = last.iter().copied().fold(0.0, f64::max);
         assert!(most <= 1.02 * least, "{last:?} at the end, {least} before");
     }
-}
-
-#[test]
-fn no_curve_is_a_lone_background() {
-    let sequence = scene::render("flight", 96, 72).unwrap();
-    let mut solver = start(&sequence, &[], best());
-    let found = run(&mut solver);
-    whole(&found, &sequence, 1);
-    assert_eq!(solver.energy().length, 0.0);
-    assert!(solver.contours().is_empty());
-    let flow = horn_schunck::solve(&pair(&sequence), horn_schunck::ALPHA, horn_schunck::SWEEPS);
-    let (baseline, _) = compare_flow(&flow, &sequence.truth.flow, None)
-        .unwrap()
-        .unwrap();
-    let (labels, aee) = scores(&found, &sequence);
-    assert_eq!(labels, 0.0);
-    assert!(aee < 0.9 * baseline, "AEE {aee}, Horn–Schunck {baseline}");
 }
 
 #[test]
@@ -337,18 +199,6 @@ fn curves_may_be_put_elsewhere_at_any_scale() {
 }
 
 #[test]
-fn curves_drawn_after_a_run_find_their_objects() {
-    let sequence = scene::render("blocks", 96, 72).unwrap();
-    let mut solver = start(&sequence, &[], best());
-    run(&mut solver);
-    solver.set_curves(&sequence.curves).unwrap();
-    assert_eq!(solver.status(), Status::Running);
-    let (labels, aee) = scores(&run(&mut solver), &sequence);
-    assert!(labels < 0.045, "{labels} of all labels are wrong");
-    assert!(aee < 0.025, "AEE {aee}");
-}
-
-#[test]
 fn new_curves_are_allowed_all_their_passes() {
     let sequence = scene::render("squares", 64, 48).unwrap();
     for &preset in Preset::ALL {
@@ -442,35 +292,6 @@ fn it_ends_when_its_passes_are_used_up_at_whatever_scale() {
     whole(&solver.interpretation(), &sequence, 3);
     solver.set_options(best()).unwrap();
     assert_eq!(solver.step(), Status::Running);
-}
-
-#[test]
-fn the_smallest_frames_work() {
-    for (width, height) in [(16, 16), (16, 57), (131, 17)] {
-        let sequence = scene::render("squares", width, height).unwrap();
-        let middle = circle(width as f64 / 2.0, height as f64 / 2.0, 4.0);
-        let mut solver = start(&sequence, &[middle], best());
-        run(&mut solver);
-        assert_ne!(solver.status(), Status::Diverged);
-        assert!(solver.history().iter().all(|e| e.is_finite()));
-        whole(&solver.interpretation(), &sequence, 2);
-    }
-}
-
-#[test]
-fn brightness_has_no_unit() {
-    let sequence = scene::render("blocks", 96, 72).unwrap();
-    let solve = |gain: f32| {
-        let [first, second] = [0, 1].map(|i| {
-            let grey = sequence.frames[i].grey.map(|g| gain * g);
-            Frame::from_grey(grey).unwrap()
-        });
-        let pair = FramePair::new(first, second).unwrap();
-        let camera = sequence.truth.camera;
-        run(&mut Solver::new(pair, camera, &sequence.curves, best()).unwrap()).labels
-    };
-    let share = differing(&solve(1.0), &solve(0.5));
-    assert!(share < 0.02, "{share} of all labels differ");
 }
 
 #[test]

@@ -3,28 +3,13 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
+mod solving;
+
 use relievo::scene::{Sequence, render};
 #[cfg(not(target_arch = "wasm32"))]
 use relievo::start::Look;
-use relievo::{FramePair, Grid, Options, Shape, Solver};
-
-fn pair(sequence: &Sequence) -> FramePair {
-    let [first, second] = sequence.frames.clone();
-    FramePair::new(first, second).unwrap()
-}
-
-fn start(sequence: &Sequence, curves: &[Shape], options: Options) -> Solver {
-    Solver::new(pair(sequence), sequence.truth.camera, curves, options).unwrap()
-}
-
-fn circle(x: f64, y: f64, r: f64) -> Shape {
-    Shape::Circle { x, y, r }
-}
-
-fn differing(a: &Grid<u8>, b: &Grid<u8>) -> f64 {
-    let pairs = a.data().iter().zip(b.data());
-    pairs.filter(|(a, b)| a != b).count() as f64 / a.len() as f64
-}
+use relievo::{Options, Shape, Solver};
+use solving::{circle, differing, pair, start};
 
 fn wrong(solver: &Solver, sequence: &Sequence) -> f64 {
     differing(&solver.interpretation().labels, &sequence.truth.labels)

@@ -3,17 +3,12 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-mod paper;
+mod solving;
 
-use paper::{circle, pair, paper, run, small, start};
 use relievo::scene::{self, Sequence};
 use relievo::score::{compare, compare_flow};
-use relievo::{Frame, FramePair, Grid, Interpretation, Shape, Solver, Status, horn_schunck};
-
-fn differing(a: &Grid<u8>, b: &Grid<u8>) -> f64 {
-    let pairs = a.data().iter().zip(b.data());
-    pairs.filter(|(a, b)| a != b).count() as f64 / a.len() as f64
-}
+use relievo::{Frame, FramePair, Interpretation, Shape, Solver, Status, horn_schunck};
+use solving::{circle, differing, pair, paper, run, small, start};
 
 /// Solves a sequence from its circles; checks what the method promises.
 fn promise(name: &str, wrong: f64) -> (Sequence, Interpretation) {

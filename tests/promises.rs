@@ -3,15 +3,13 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
+mod solving;
+
 use relievo::motion::Kind;
-use relievo::options::Preset;
 use relievo::scene::{self, Sequence};
 use relievo::score::compare;
 use relievo::{Frame, FramePair, Grid, Options, Solver, Status};
-
-fn best() -> Options {
-    Options::preset(Preset::Best)
-}
+use solving::{best, differing};
 
 /// A solver at its end, the second frame's brightness having been changed by `light`.
 fn solved(sequence: &Sequence, options: Options, light: impl Fn(f32) -> f32) -> Solver {
@@ -22,11 +20,6 @@ fn solved(sequence: &Sequence, options: Options, light: impl Fn(f32) -> f32) -> 
     let mut solver = Solver::new(pair, camera, &sequence.curves, options).unwrap();
     while solver.step() == Status::Running {}
     solver
-}
-
-fn differing(a: &Grid<u8>, b: &Grid<u8>) -> f64 {
-    let pairs = a.data().iter().zip(b.data());
-    pairs.filter(|(a, b)| a != b).count() as f64 / a.len() as f64
 }
 
 #[test]

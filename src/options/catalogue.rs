@@ -164,7 +164,7 @@ static CATALOGUE: &[Descriptor] = &[
     toggle(
         "lighting",
         "Light may change",
-        "Allow for a gain and an offset between the frames, and for smooth changes of brightness over each region. Coarse to fine only.",
+        "Allow for a gain and an offset between the frames, and for smooth changes of brightness over each region. Switching it starts anew. Coarse to fine only.",
         "ψ in (7)",
     ),
     toggle(

@@ -67,7 +67,7 @@ pub(super) trait Approach {
     fn flat(&self) -> bool;
 
     /// What the frames are taken for, at the frame's size.
-    fn interpretation(&self) -> Interpretation;
+    fn interpretation(&self, options: &Options) -> Interpretation;
 }
 
 /// Pixels that each of `regions` regions owns.

@@ -17,14 +17,18 @@ pub(super) struct Layer {
     pub kind: Kind,
     /// Inverse depth over the whole frame.
     pub rho: Grid<f32>,
+    /// How much brighter its pixels become, grey levels.
+    pub shade: Grid<f32>,
 }
 
-/// What `layers` and the curves `level_sets` between them say of the frames at `scale`.
+/// What `layers` and the curves `level_sets` between them say of the frames at `scale`. What is out of sight in the second
+/// frame has left it, or, if `covers`, is behind what another layer shows there.
 pub(super) fn composed(
     scale: &Scale,
     level_sets: &[Grid<f32>],
     layers: &[Layer],
     measure: &Measure,
+    covers: bool,
 ) -> Interpretation {
     let (width, height) = (scale.width(), scale.height());
     let labels = curves::labels(level_sets, width, height);
@@ -36,10 +40,16 @@ pub(super) fn composed(
     let mut confidence = Grid::new(width, height, 0.0f32);
     let lines: Vec<Linearisation> = layers
         .iter()
-        .map(|layer| scale.linearise(&layer.motion, &layer.rho, scale.whole()))
+        .map(|layer| {
+            let mut line = scale.linearise(&layer.motion, &layer.rho, scale.whole());
+            line.allow_for(&layer.shade);
+            line
+        })
         .collect();
-    let xi = rivalry::residuals(&lines, scale, measure);
-    let cover = rivalry::cover(&lines, &xi, &labels, measure);
+    let cover = covers.then(|| {
+        let xi = rivalry::residuals(&lines, scale, measure);
+        rivalry::cover(&lines, &xi, &labels, measure)
+    });
     let mut occluded = Grid::new(width, height, 0u8);
     for (k, (layer, line)) in layers.iter().zip(&lines).enumerate() {
         let shows = layer.kind.translates();
@@ -59,7 +69,7 @@ pub(super) fn composed(
             flow.v.data_mut()[i] = v as f32;
             depth.data_mut()[i] = rho.recip();
             let to = [(x + u) as f32, (y + v) as f32];
-            let hidden = !line.inside.data()[i] || cover.hides(k, to);
+            let hidden = !line.inside.data()[i] || cover.as_ref().is_some_and(|c| c.hides(k, to));
             occluded.data_mut()[i] = u8::from(hidden);
             if shows && !hidden {
                 confidence.data_mut()[i] = certain.data()[i];

@@ -183,16 +183,19 @@ impl Solver {
     }
 
     /// Changes settings while the solver runs; curves, depth and motions stay, unless the way depth is
-    /// held changes: then they start anew from the curves drawn last. A solver that had stopped goes on.
+    /// held changes, or whether light may: then they start anew from the curves drawn last, since what was
+    /// found in another light may be nothing to go on from. A solver that had stopped goes on.
     ///
     /// # Errors
     /// What [`Options::validate`] finds; then nothing is changed.
     pub fn set_options(&mut self, options: Options) -> Result<(), Error> {
         options.validate()?;
         check_memory(&self.pair, &options)?;
-        let other = options.depth != self.options.depth;
+        let relit =
+            options.lighting != self.options.lighting && options.depth == DepthMethod::Layers;
+        let anew = options.depth != self.options.depth || relit;
         self.options = options;
-        if other {
+        if anew {
             self.reset();
         } else {
             self.approach.reconsider(&self.options);
@@ -226,7 +229,7 @@ impl Solver {
 
     /// What the frames are taken for at present.
     pub fn interpretation(&self) -> Interpretation {
-        self.approach.interpretation()
+        self.approach.interpretation(&self.options)
     }
 
     /// The curves as sub-pixel polylines, in the order of their labels.

@@ -5,7 +5,7 @@ use crate::camera::RigidMotion;
 use crate::depth::{Bends, FieldPrior, Plane};
 use crate::grid::Grid;
 use crate::motion::Kind;
-use crate::warp::{Linearisation, RESIDUAL, Scale};
+use crate::warp::{Linearisation, Scale};
 use crate::window::Window;
 
 /// Inverse depth is kept between these; the region's mean is 1.
@@ -48,9 +48,7 @@ impl Region {
     /// The constraint around what it is at present, for depth in `window` alone.
     pub fn linearise(&self, scale: &Scale, window: Window) -> Linearisation {
         let mut line = scale.linearise(&self.motion, &self.rho, window);
-        for (row, shade) in line.rows.data_mut().iter_mut().zip(self.shade.data()) {
-            row[RESIDUAL] -= shade;
-        }
+        line.allow_for(&self.shade);
         line
     }
 

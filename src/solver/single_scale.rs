@@ -266,7 +266,7 @@ impl Approach for SingleScale {
         false
     }
 
-    fn interpretation(&self) -> Interpretation {
+    fn interpretation(&self, _options: &Options) -> Interpretation {
         let (width, height) = (self.labels.width(), self.labels.height());
         let mut flow = Flow {
             u: Grid::new(width, height, 0.0),

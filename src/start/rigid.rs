@@ -212,6 +212,10 @@ impl Rigid {
             return None;
         }
         let (_, &mut median, _) = depths.select_nth_unstable_by(middle, f64::total_cmp);
+        // Numbers that overflow tell nothing.
+        if !median.is_finite() {
+            return None;
+        }
         let [low, high] = [median / NEAR_AND_FAR, median * NEAR_AND_FAR];
         rigid.depths = [low.min(high), low.max(high)];
         for witness in witnesses {

@@ -2,9 +2,8 @@
 
 use super::Layers;
 use crate::camera::RigidMotion;
-use crate::curves::{self, Measure};
+use crate::curves;
 use crate::energy::Energy;
-use crate::frames::Lighting;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 use crate::motion::Kind;
@@ -152,20 +151,11 @@ impl Approach for Layers {
     }
 
     fn reconsider(&mut self, options: &Options) {
-        let forgets_light = !options.lighting && self.lighting != Lighting::default();
-        if forgets_light {
-            self.lighting = Lighting::default();
-        }
-        if options.smoothing != self.smoothing || forgets_light {
+        if options.smoothing != self.smoothing {
             self.smoothing = options.smoothing;
             self.scales = pyramid(&self.pair, self.scales[0].camera, options.smoothing);
             for scale in &mut self.scales {
                 scale.relight(self.lighting);
-            }
-        }
-        if !options.lighting {
-            for region in &mut self.regions {
-                region.shade.data_mut().fill(0.0);
             }
         }
         self.weights = Weights::of_layers(self.noise.sigma, self.schedule.settled(), options);
@@ -241,7 +231,7 @@ impl Approach for Layers {
         self.schedule.deep().is_none()
     }
 
-    fn interpretation(&self) -> Interpretation {
+    fn interpretation(&self, options: &Options) -> Interpretation {
         let read: Vec<Layer> = self
             .regions
             .iter()
@@ -250,17 +240,16 @@ impl Approach for Layers {
                 motion,
                 kind,
                 rho: self.at_full_size(&region.rho),
+                shade: self.at_full_size(&region.shade),
             })
             .collect();
+        let measure = self.measure(options);
         composed(
             &self.scales[0],
             &self.level_sets(),
             &read,
-            &Measure {
-                sigma: self.weights.sigma,
-                gradient_sigma: Some(self.noise.gradient),
-                normalised: true,
-            },
+            &measure,
+            options.occlusion,
         )
     }
 }
