@@ -86,6 +86,29 @@ pub enum Error {
         /// Width and height of the truth.
         truth: (usize, usize),
     },
+    /// Files of one result that are of different sizes.
+    #[error(
+        "{name} is {}×{}, labels.png {}×{} pixels; all files must be those of one result",
+        .size.0, .size.1, .labels.0, .labels.1
+    )]
+    FilesDiffer {
+        /// The file that differs.
+        name: &'static str,
+        /// Its width and height.
+        size: (usize, usize),
+        /// Width and height of labels.png.
+        labels: (usize, usize),
+    },
+    /// Motions that are not those of the regions.
+    #[error(
+        "motion.json describes regions {described:?}, labels.png goes up to {last}; it must describe each from 0 to {last} once"
+    )]
+    Regions {
+        /// The labels in motion.json.
+        described: Vec<u8>,
+        /// The greatest in labels.png.
+        last: u8,
+    },
     /// Twice the same frame.
     #[error(
         "the two frames are identical, so nothing moves; give two different moments of the film"

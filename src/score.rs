@@ -4,6 +4,7 @@
 //! (u, v, 1) and the true (u, v, 1). Labels are wrong by the share of pixels that have another than
 //! the true one. Depth has a scale of its own in each region, so it is scored as mean |aẐ − Z|/Z with
 //! a = median(Z/Ẑ) over the region; a translation, whose length has no scale either, by its angle.
+//! Where no depth was found, it counts as off by all of it; where no flow was found, as no motion.
 
 use glam::DVec3;
 use serde::Serialize;
@@ -24,7 +25,8 @@ pub struct Scores {
     pub labels_wrong: f64,
     /// Pixels in both regions over pixels in either, 0–1.
     pub iou: Vec<Option<f64>>,
-    /// Mean relative depth error where depth is observable and the point not hidden.
+    /// Mean relative depth error where depth is observable and the point not hidden, 1 at a pixel whose depth is no
+    /// number above 0.
     pub depth_error: Vec<Option<f64>>,
     /// What a constant depth would score in the same pixels.
     pub flat_depth_error: Vec<Option<f64>>,
@@ -37,7 +39,7 @@ pub struct Scores {
 /// Scores what was found against the truth.
 ///
 /// # Errors
-/// [`Error::Length`] when the two are of different sizes.
+/// [`Error::TruthDiffers`] when the two are of different sizes.
 pub fn compare(found: &Interpretation, truth: &Interpretation) -> Result<Scores, Error> {
     same_size(&found.labels, &truth.labels)?;
     let flow = compare_flow(&found.flow, &truth.flow, None)?;
@@ -78,10 +80,10 @@ pub fn compare(found: &Interpretation, truth: &Interpretation) -> Result<Scores,
 }
 
 /// (AEE in pixels, AAE in degrees) over the pixels whose true flow is known and, if a mask is given,
-/// where that is not 0; `None` when there are none. A flow that was not found counts as no motion.
+/// where that is not 0; `None` when there are none.
 ///
 /// # Errors
-/// [`Error::Length`] when sizes differ.
+/// [`Error::TruthDiffers`] when sizes differ.
 pub fn compare_flow(
     found: &Flow,
     truth: &Flow,
@@ -108,22 +110,30 @@ pub fn compare_flow(
     Ok((count > 0).then(|| (lengths / n, angles / n)))
 }
 
-/// Mean |aẐ − Z|/Z over pairs (Ẑ, Z), a = median(Z/Ẑ).
+/// Mean |aẐ − Z|/Z over pairs (Ẑ, Z), a = median(Z/Ẑ) where Ẑ was found; 1 where it was not.
 fn depth_error(pairs: &[(f64, f64)]) -> Option<f64> {
     if pairs.is_empty() {
         return None;
     }
-    let mut ratios: Vec<f64> = pairs.iter().map(|(found, z)| z / found).collect();
+    let found = |depth: f64| depth.is_finite() && depth > 0.0;
+    let known = pairs.iter().filter(|(depth, _)| found(*depth));
+    let mut ratios: Vec<f64> = known.map(|(depth, z)| z / depth).collect();
     ratios.sort_by(f64::total_cmp);
     let middle = ratios.len() / 2;
-    let a = if ratios.len() % 2 == 1 {
-        ratios[middle]
-    } else {
-        (ratios[middle - 1] + ratios[middle]) / 2.0
+    let a = match ratios.len() {
+        0 => 0.0,
+        odd if odd % 2 == 1 => ratios[middle],
+        _ => (ratios[middle - 1] + ratios[middle]) / 2.0,
     };
     let sum: f64 = pairs
         .iter()
-        .map(|(found, z)| (a * found - z).abs() / z)
+        .map(|&(depth, z)| {
+            if found(depth) {
+                (a * depth - z).abs() / z
+            } else {
+                1.0
+            }
+        })
         .sum();
     Some(sum / pairs.len() as f64)
 }

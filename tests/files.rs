@@ -4,8 +4,9 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::file::motion::{MotionFile, RegionMotion, Seconds};
+use relievo::file::result::{self, ResultFiles};
 use relievo::file::{flo, pfm, png};
-use relievo::{Error, Flow, Grid};
+use relievo::{Error, Flow, Grid, Interpretation, scene};
 
 fn flow() -> Flow {
     Flow {
@@ -176,4 +177,99 @@ fn the_motion_of_a_run_that_diverged_can_be_read() {
     };
     let back = MotionFile::read(&diverged.write()).unwrap();
     assert!(back.energy[0] == 3.5 && back.energy[1].is_nan());
+}
+
+/// A result with motions of its own, and its files by name.
+fn saved() -> (Interpretation, MotionFile, Vec<(&'static str, Vec<u8>)>) {
+    let truth = scene::render("squares", 40, 30).unwrap().truth;
+    let motion = MotionFile {
+        regions: RegionMotion::list(&truth.motions),
+        ..MotionFile::default()
+    };
+    let files = result::write(&truth, &motion).unwrap();
+    (truth, motion, files)
+}
+
+/// Reads them again, `name` having been replaced by `bytes`.
+fn read_with(
+    files: &[(&'static str, Vec<u8>)],
+    name: &str,
+    bytes: &[u8],
+) -> Result<Interpretation, Error> {
+    let file = |wanted: &str| {
+        let own = files.iter().find(|(name, _)| *name == wanted);
+        if wanted == name {
+            bytes
+        } else {
+            own.unwrap().1.as_slice()
+        }
+    };
+    ResultFiles {
+        labels: file("labels.png"),
+        depth: file("depth.pfm"),
+        flow: file("flow.flo"),
+        motion: std::str::from_utf8(file("motion.json")).unwrap(),
+        occlusion: Some(file("occlusion.png")),
+    }
+    .read()
+}
+
+#[test]
+fn a_result_returns_exactly() {
+    let (truth, _, files) = saved();
+    let back = read_with(&files, "", &[]).unwrap();
+    assert_eq!(back.labels, truth.labels);
+    assert_eq!(back.depth, truth.depth);
+    assert_eq!(back.flow, truth.flow);
+    assert_eq!(back.motions, truth.motions);
+    let hidden = |it: &Interpretation| it.occluded.map(|h| h > 0);
+    assert_eq!(hidden(&back), hidden(&truth));
+    assert!(back.confidence.data().iter().all(|c| *c == 1.0));
+}
+
+#[test]
+fn files_of_different_sizes_are_no_result() {
+    let (_, _, files) = saved();
+    let lying = Grid::new(30, 40, 1.0);
+    let nothing = Flow {
+        u: lying.clone(),
+        v: lying.clone(),
+    };
+    for (name, bytes) in [
+        ("depth.pfm", pfm::write(&lying)),
+        ("flow.flo", flo::write(&nothing)),
+        (
+            "occlusion.png",
+            png::write_labels(&lying.map(|_| 0)).unwrap(),
+        ),
+    ] {
+        let error = read_with(&files, name, &bytes).unwrap_err().to_string();
+        for told in [name, "30×40", "40×30"] {
+            assert!(error.contains(told), "{error}");
+        }
+    }
+}
+
+#[test]
+fn motions_go_to_the_regions_that_they_are_labelled_for() {
+    let (truth, motion, files) = saved();
+    let with = |regions: Vec<RegionMotion>| {
+        let other = MotionFile {
+            regions,
+            ..motion.clone()
+        };
+        read_with(&files, "motion.json", other.write().as_bytes())
+    };
+    let mut regions = motion.regions.clone();
+    regions.reverse();
+    assert_eq!(with(regions.clone()).unwrap().motions, truth.motions);
+    // One missing, one twice, none at all.
+    for bad in [
+        regions[..2].to_vec(),
+        vec![regions[0].clone(), regions[0].clone(), regions[1].clone()],
+        vec![],
+    ] {
+        let error = with(bad).unwrap_err();
+        assert!(matches!(error, Error::Regions { last: 2, .. }), "{error}");
+    }
 }

@@ -154,3 +154,16 @@ fn scores_are_one_flat_json_object() {
     }
     assert!(json["translation_angle"][0].is_null());
 }
+
+#[test]
+fn depth_that_was_not_found_counts_as_off_by_all_of_it() {
+    let mut found = truth();
+    for (x, none) in [(0, f32::NAN), (1, 0.0)] {
+        found.depth[(x, 0)] = none;
+    }
+    let error = compare(&found, &truth()).unwrap().depth_error[0];
+    near(error, 0.5);
+    found.depth = found.depth.map(|_| f32::INFINITY);
+    let error = compare(&found, &truth()).unwrap().depth_error[0];
+    near(error, 1.0);
+}

@@ -4,6 +4,7 @@ pub mod flo;
 pub mod motion;
 pub mod pfm;
 pub mod png;
+pub mod result;
 
 use crate::error::Error;
 use crate::frames::MAX_SIDE;

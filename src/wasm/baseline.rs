@@ -2,7 +2,7 @@
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use super::{Frame, Picture, draw};
+use super::{Frame, Json, Picture, Word, draw};
 use crate::error::Error;
 use crate::frames::FramePair;
 use crate::horn_schunck::interpreted;
@@ -26,8 +26,14 @@ pub fn horn_schunck(first: &Frame, second: &Frame) -> Result<Baseline, Error> {
 #[wasm_bindgen]
 impl Baseline {
     /// A picture of what it found, which is motion only: `flow` or `arrows`; see `viewCatalogue()`.
-    pub fn view(&self, kind: &str, params: &str) -> Result<Picture, Error> {
+    pub fn view(&self, kind: &Word, params: &Json) -> Result<Picture, Error> {
         let frames = [self.pair.first(), self.pair.second()];
-        draw(kind, frames, &self.found, &[], params)
+        draw(
+            &kind.view()?,
+            frames,
+            &self.found,
+            &[],
+            &params.view_params()?,
+        )
     }
 }

@@ -3,6 +3,7 @@
 use wasm_bindgen::Clamped;
 use wasm_bindgen::prelude::wasm_bindgen;
 
+use super::Word;
 use crate::error::Error;
 use crate::grid::Grid;
 use crate::view;
@@ -14,8 +15,11 @@ pub struct Frame(pub(super) crate::Frame);
 #[wasm_bindgen]
 impl Frame {
     /// Reads the bytes of an image file; `name` is what errors call it.
-    pub fn decode(bytes: &[u8], name: &str) -> Result<Frame, Error> {
-        Ok(Self(crate::Frame::decode(bytes, name)?))
+    pub fn decode(bytes: &[u8], name: &Word) -> Result<Frame, Error> {
+        Ok(Self(crate::Frame::decode(
+            bytes,
+            &name.text("name of the file")?,
+        )?))
     }
 
     /// A frame of four bytes a pixel, as canvas gives them.

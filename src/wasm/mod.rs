@@ -27,7 +27,8 @@ pub use start::{find_curves, find_focal};
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use wasm_bindgen::JsValue;
+use wasm_bindgen::prelude::wasm_bindgen;
+use wasm_bindgen::{JsCast, JsValue};
 
 use crate::Error;
 use crate::curves::Contour;
@@ -53,12 +54,65 @@ impl From<Error> for JsValue {
     }
 }
 
-/// Reads JSON that came from JavaScript; `what` is what an error calls it.
-fn read<T: DeserializeOwned>(what: &'static str, json: &str) -> Result<T, Error> {
-    serde_json::from_str(json).map_err(|e| Error::Json {
-        what,
-        reason: e.to_string(),
-    })
+#[wasm_bindgen]
+extern "C" {
+    /// A word. Nothing keeps JavaScript from passing something else, which would be read as if it were one.
+    #[wasm_bindgen(typescript_type = "string")]
+    pub type Word;
+
+    /// JSON text, or what it would be parsed to.
+    #[wasm_bindgen(typescript_type = "string | object")]
+    pub type Json;
+}
+
+impl Word {
+    /// The name of a view.
+    fn view(&self) -> Result<String, Error> {
+        self.text("name of the view")
+    }
+
+    /// What was passed; `what` is what an error calls it.
+    fn text(&self, what: &'static str) -> Result<String, Error> {
+        let it: &JsValue = self.as_ref();
+        it.as_string().ok_or_else(|| Error::Json {
+            what,
+            reason: format!("it must be a string, and is {}", kind_of(it)),
+        })
+    }
+}
+
+impl Json {
+    /// The text; `what` is what an error calls it.
+    fn text(&self, what: &'static str) -> Result<String, Error> {
+        let it: &JsValue = self.as_ref();
+        if let Some(text) = it.as_string() {
+            return Ok(text);
+        }
+        let text = it
+            .is_object()
+            .then(|| js_sys::JSON::stringify(it).ok()?.as_string());
+        text.flatten().ok_or_else(|| Error::Json {
+            what,
+            reason: format!("it must be JSON or an object, and is {}", kind_of(it)),
+        })
+    }
+
+    fn view_params(&self) -> Result<ViewParams, Error> {
+        ViewParams::from_json(&self.text("view settings")?)
+    }
+
+    /// The value of type T that it stands for.
+    fn read<T: DeserializeOwned>(&self, what: &'static str) -> Result<T, Error> {
+        serde_json::from_str(&self.text(what)?).map_err(|e| Error::Json {
+            what,
+            reason: e.to_string(),
+        })
+    }
+}
+
+/// What JavaScript calls its type.
+fn kind_of(it: &JsValue) -> String {
+    it.js_typeof().unchecked_into::<js_sys::JsString>().into()
 }
 
 /// Writes JSON for JavaScript. What is not a number becomes `null`.
@@ -72,9 +126,8 @@ fn draw(
     frames: [&crate::Frame; 2],
     found: &Interpretation,
     contours: &[Contour],
-    params: &str,
+    params: &ViewParams,
 ) -> Result<Picture, Error> {
-    let params = ViewParams::from_json(params)?;
     let frame = frames[usize::from(kind == "second")];
-    view::draw(kind, frame, found, contours, &params).map(Picture)
+    view::draw(kind, frame, found, contours, params).map(Picture)
 }

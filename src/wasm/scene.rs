@@ -5,11 +5,11 @@ use std::cell::OnceCell;
 use js_sys::Array;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use super::files::{data, listed};
-use super::{Frame, Picture, draw, write};
+use super::files::listed;
+use super::{Frame, Json, Picture, Word, draw, write};
 use crate::error::Error;
 use crate::file::motion::{MotionFile, RegionMotion};
-use crate::file::png;
+use crate::file::{png, result};
 use crate::frames::FramePair;
 use crate::horn_schunck::interpreted;
 use crate::interpretation::Interpretation;
@@ -27,9 +27,9 @@ pub struct Scene {
 impl Scene {
     /// Renders the sequence called `name` at a size of one's own.
     #[wasm_bindgen(constructor)]
-    pub fn new(name: &str, width: usize, height: usize) -> Result<Scene, Error> {
+    pub fn new(name: &Word, width: usize, height: usize) -> Result<Scene, Error> {
         Ok(Self {
-            sequence: scene::render(name, width, height)?,
+            sequence: scene::render(&name.text("name of the sequence")?, width, height)?,
             baseline: OnceCell::new(),
         })
     }
@@ -69,9 +69,15 @@ impl Scene {
     }
 
     /// A picture of the truth: one of `viewCatalogue()`, with parameters of its own as JSON.
-    pub fn view(&self, kind: &str, params: &str) -> Result<Picture, Error> {
+    pub fn view(&self, kind: &Word, params: &Json) -> Result<Picture, Error> {
         let Sequence { frames, truth, .. } = &self.sequence;
-        draw(kind, [&frames[0], &frames[1]], truth, &[], params)
+        draw(
+            &kind.view()?,
+            [&frames[0], &frames[1]],
+            truth,
+            &[],
+            &params.view_params()?,
+        )
     }
 
     /// Frames and truth, as an array of files `{name, bytes}`.
@@ -87,7 +93,7 @@ impl Scene {
             ("frame0.png", png::write_rgb(&frames[0].rgb)?),
             ("frame1.png", png::write_rgb(&frames[1].rgb)?),
         ];
-        files.extend(data(truth, &motion)?);
+        files.extend(result::write(truth, &motion)?);
         Ok(listed(files))
     }
 }

@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use super::files::{data, listed};
-use super::{Frame, Mesh, Picture, Scene, draw, read, write};
+use super::files::listed;
+use super::{Frame, Json, Mesh, Picture, Scene, Word, draw, write};
 use crate::camera::Camera;
 use crate::curves::{Contour, Shape};
 use crate::error::Error;
 use crate::file::motion::{MotionFile, RegionMotion, Seconds};
-use crate::file::png;
+use crate::file::{png, result};
 use crate::frames::FramePair;
 use crate::interpretation::Interpretation;
 use crate::options::Options;
@@ -77,20 +77,20 @@ pub struct Solver {
 impl Solver {
     /// A solver at its start. `camera` is `{"focal", "cx"?, "cy"?}`, `shapes` an array of
     /// `{"kind": "circle", "x", "y", "r"}` and `{"kind": "polygon", "points": [[x, y], …]}`, `options`
-    /// an object of what differs from the preset, `"preset": "best"` where it names none; all three are
-    /// JSON.
+    /// an object of what differs from the preset, `"preset": "best"` where it names none; all three as
+    /// JSON or as they are.
     #[wasm_bindgen(constructor)]
     pub fn new(
         first: &Frame,
         second: &Frame,
-        camera: &str,
-        shapes: &str,
-        options: &str,
+        camera: &Json,
+        shapes: &Json,
+        options: &Json,
     ) -> Result<Solver, Error> {
         let pair = FramePair::new(first.0.clone(), second.0.clone())?;
         let camera = camera_of(&pair, camera)?;
-        let shapes: Vec<Shape> = read("curves", shapes)?;
-        let options = Options::from_json(options)?;
+        let shapes: Vec<Shape> = shapes.read("curves")?;
+        let options = Options::from_json(&options.text("options")?)?;
         let mut solver = crate::Solver::new(pair, camera, &shapes, options)?;
         solver.set_clock(|| milliseconds() / 1000.0);
         Ok(Self {
@@ -136,14 +136,15 @@ impl Solver {
 
     /// Changes options while it runs; on an error they stay.
     #[wasm_bindgen(js_name = setOptions)]
-    pub fn set_options(&mut self, options: &str) -> Result<(), Error> {
-        self.change().set_options(Options::from_json(options)?)
+    pub fn set_options(&mut self, options: &Json) -> Result<(), Error> {
+        self.change()
+            .set_options(Options::from_json(&options.text("options")?)?)
     }
 
     /// Changes the curves while it runs; on an error they stay.
     #[wasm_bindgen(js_name = setCurves)]
-    pub fn set_curves(&mut self, shapes: &str) -> Result<(), Error> {
-        let shapes: Vec<Shape> = read("curves", shapes)?;
+    pub fn set_curves(&mut self, shapes: &Json) -> Result<(), Error> {
+        let shapes: Vec<Shape> = shapes.read("curves")?;
         self.change().set_curves(&shapes)
     }
 
@@ -158,22 +159,14 @@ impl Solver {
         write(&contours.iter().map(Outline::of).collect::<Vec<_>>())
     }
 
-    /// A picture of what is found so far: one of `viewCatalogue()`, with parameters of its own as JSON.
-    pub fn view(&self, kind: &str, params: &str) -> Result<Picture, Error> {
-        let pair = self.solver.pair();
-        // No other view shows curves.
-        let contours = if kind == "segmentation" {
-            self.solver.contours()
-        } else {
-            Vec::new()
-        };
-        let frames = [pair.first(), pair.second()];
-        draw(kind, frames, self.found(), &contours, params)
+    /// A picture of what is found so far: one of `viewCatalogue()`, with parameters of its own.
+    pub fn view(&self, kind: &Word, params: &Json) -> Result<Picture, Error> {
+        self.picture(&kind.view()?, &params.view_params()?)
     }
 
     /// The relief, with the parameters of a view as JSON.
-    pub fn mesh(&self, params: &str) -> Result<Mesh, Error> {
-        let params = ViewParams::from_json(params)?;
+    pub fn mesh(&self, params: &Json) -> Result<Mesh, Error> {
+        let params = params.view_params()?;
         let found = self.found().scaled(&params.scales);
         Ok(Mesh(view::mesh(
             self.solver.pair().first(),
@@ -196,12 +189,12 @@ impl Solver {
 
     /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`].
     #[wasm_bindgen(unchecked_return_type = "{ name: string; bytes: Uint8Array<ArrayBuffer> }[]")]
-    pub fn files(&self, params: &str) -> Result<Array, Error> {
-        let scales = ViewParams::from_json(params)?.scales;
-        let found = self.found().scaled(&scales);
-        let mut files = data(&found, &self.motion_file(&found))?;
+    pub fn files(&self, params: &Json) -> Result<Array, Error> {
+        let params = params.view_params()?;
+        let found = self.found().scaled(&params.scales);
+        let mut files = result::write(&found, &self.motion_file(&found))?;
         for (kind, name) in PICTURES {
-            files.push((name, png::write_rgba(&self.view(kind, params)?.0)?));
+            files.push((name, png::write_rgba(&self.picture(kind, &params)?.0)?));
         }
         Ok(listed(files))
     }
@@ -239,6 +232,18 @@ impl Solver {
         self.found.get_or_init(|| self.solver.interpretation())
     }
 
+    fn picture(&self, kind: &str, params: &ViewParams) -> Result<Picture, Error> {
+        let pair = self.solver.pair();
+        // No other view shows curves.
+        let contours = if kind == "segmentation" {
+            self.solver.contours()
+        } else {
+            Vec::new()
+        };
+        let frames = [pair.first(), pair.second()];
+        draw(kind, frames, self.found(), &contours, params)
+    }
+
     fn motion_file(&self, found: &Interpretation) -> MotionFile {
         let Report {
             iterations,
@@ -266,8 +271,8 @@ impl Solver {
     }
 }
 
-pub(super) fn camera_of(pair: &FramePair, json: &str) -> Result<Camera, Error> {
-    let given: CameraJson = read("camera", json)?;
+pub(super) fn camera_of(pair: &FramePair, json: &Json) -> Result<Camera, Error> {
+    let given: CameraJson = json.read("camera")?;
     let mut camera = Camera::centred(given.focal, pair.width(), pair.height())?;
     camera.cx = given.cx.unwrap_or(camera.cx);
     camera.cy = given.cy.unwrap_or(camera.cy);

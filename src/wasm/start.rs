@@ -3,7 +3,7 @@
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::solver::camera_of;
-use super::{Frame, write};
+use super::{Frame, Json, write};
 use crate::error::Error;
 use crate::frames::FramePair;
 use crate::start;
@@ -11,7 +11,7 @@ use crate::start;
 /// A polygon roughly on each thing that moves by itself, the largest first and four at most, as a
 /// solver takes them; `[]` where one motion explains both frames. `camera` is that of a solver.
 #[wasm_bindgen(js_name = findCurves)]
-pub fn find_curves(first: &Frame, second: &Frame, camera: &str) -> Result<String, Error> {
+pub fn find_curves(first: &Frame, second: &Frame, camera: &Json) -> Result<String, Error> {
     let pair = FramePair::new(first.0.clone(), second.0.clone())?;
     let camera = camera_of(&pair, camera)?;
     Ok(write(&start::automatic(&pair, &camera)))
@@ -20,7 +20,7 @@ pub fn find_curves(first: &Frame, second: &Frame, camera: &str) -> Result<String
 /// The focal length at which rigid motions explain the frames best, `{"focal", "least", "greatest"}` in
 /// pixels: f, and the ends of its range. `null` where that of `camera`, a guess, does about as well.
 #[wasm_bindgen(js_name = findFocal)]
-pub fn find_focal(first: &Frame, second: &Frame, camera: &str) -> Result<String, Error> {
+pub fn find_focal(first: &Frame, second: &Frame, camera: &Json) -> Result<String, Error> {
     let pair = FramePair::new(first.0.clone(), second.0.clone())?;
     let camera = camera_of(&pair, camera)?;
     Ok(write(&start::focal_length(&pair, &camera)))

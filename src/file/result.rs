@@ -1,0 +1,106 @@
+//! A result as the files that measure, as opposed to the pictures that one looks at; and back again.
+//!
+//! labels.png, depth.pfm, flow.flo, occlusion.png (255 where hidden, so that it can be seen) and motion.json. They do not
+//! say what the camera was, nor how far depth can be told: read back, it counts wherever something travels.
+
+use super::motion::MotionFile;
+use super::{flo, pfm, png};
+use crate::camera::{Camera, RigidMotion};
+use crate::error::Error;
+use crate::grid::Grid;
+use crate::interpretation::Interpretation;
+
+/// The contents of the files of a result.
+#[derive(Clone, Copy, Debug)]
+pub struct ResultFiles<'a> {
+    /// labels.png.
+    pub labels: &'a [u8],
+    /// depth.pfm.
+    pub depth: &'a [u8],
+    /// flow.flo.
+    pub flow: &'a [u8],
+    /// motion.json.
+    pub motion: &'a str,
+    /// occlusion.png; without it nothing counts as hidden.
+    pub occlusion: Option<&'a [u8]>,
+}
+
+/// Names and contents of the files of `found`, which moves as `motion` says.
+///
+/// # Errors
+/// What [`png::write_labels`] finds.
+pub fn write(
+    found: &Interpretation,
+    motion: &MotionFile,
+) -> Result<Vec<(&'static str, Vec<u8>)>, Error> {
+    let hidden = found.occluded.map(|hidden| 255 * u8::from(hidden != 0));
+    Ok(vec![
+        ("labels.png", png::write_labels(&found.labels)?),
+        ("depth.pfm", pfm::write(&found.depth)),
+        ("flow.flo", flo::write(&found.flow)),
+        ("occlusion.png", png::write_labels(&hidden)?),
+        ("motion.json", motion.write().into_bytes()),
+    ])
+}
+
+impl ResultFiles<'_> {
+    /// The interpretation that was written. Its camera is one with the focal length of the frame's width.
+    ///
+    /// # Errors
+    /// [`Error::File`] and [`Error::Json`] for a file that is none of its kind, [`Error::FilesDiffer`] for one of another
+    /// size than labels.png, [`Error::Regions`] unless motion.json describes regions 0, 1, … once each, and all that
+    /// labels.png has.
+    pub fn read(&self) -> Result<Interpretation, Error> {
+        let labels = png::read_labels(self.labels, "labels.png")?;
+        let (width, height) = (labels.width(), labels.height());
+        let motions = motions(&MotionFile::read(self.motion)?, &labels)?;
+        let occluded = match self.occlusion {
+            Some(bytes) => png::read_labels(bytes, "occlusion.png")?,
+            None => Grid::new(width, height, 0),
+        };
+        let depth = pfm::read(self.depth, "depth.pfm")?;
+        let flow = flo::read(self.flow, "flow.flo")?;
+        alike(&labels, &depth, "depth.pfm")?;
+        alike(&labels, &flow.u, "flow.flo")?;
+        alike(&labels, &occluded, "occlusion.png")?;
+        let travels = |k: u8| motions[usize::from(k)].translation.length() > 0.0;
+        Ok(Interpretation {
+            camera: Camera::centred(width as f64, width, height)?,
+            confidence: labels.map(|k| f32::from(travels(k))),
+            labels,
+            depth,
+            flow,
+            occluded,
+            motions,
+        })
+    }
+}
+
+/// The motions of the regions in the order of their labels.
+fn motions(file: &MotionFile, labels: &Grid<u8>) -> Result<Vec<RigidMotion>, Error> {
+    let mut regions = file.regions.clone();
+    regions.sort_by_key(|region| region.label);
+    let numbered = regions
+        .iter()
+        .enumerate()
+        .all(|(k, region)| usize::from(region.label) == k);
+    let last = labels.data().iter().copied().max().unwrap_or(0);
+    if !numbered || regions.len() <= usize::from(last) {
+        return Err(Error::Regions {
+            described: file.regions.iter().map(|region| region.label).collect(),
+            last,
+        });
+    }
+    Ok(regions.iter().map(|region| region.motion()).collect())
+}
+
+fn alike<T: Copy>(labels: &Grid<u8>, it: &Grid<T>, name: &'static str) -> Result<(), Error> {
+    if it.same_size(labels) {
+        return Ok(());
+    }
+    Err(Error::FilesDiffer {
+        name,
+        size: (it.width(), it.height()),
+        labels: (labels.width(), labels.height()),
+    })
+}
