@@ -5,6 +5,9 @@ import { join } from "node:path";
 
 import { InputError } from "./errors.js";
 
+/** What a folder with a sequence and its truth has besides results. */
+export const SCENE = "scene.json";
+
 /** @type {Record<string, string>} */
 const REASONS = {
   ENOENT: "there is no such file or folder",
@@ -52,15 +55,18 @@ export function prepare(folder) {
 }
 
 /**
+ * Writes what can be written, so that one bad name does not cost the rest of a long computation.
  * @param {string} folder
  * @param {{ name: string, bytes: Uint8Array | string }[]} files
  */
 export function write(folder, files) {
+  const failed = [];
   for (const { name, bytes } of files) {
     try {
       writeFileSync(join(folder, name), bytes);
     } catch (error) {
-      throw explained(error, `${join(folder, name)} cannot be written`);
+      failed.push(explained(error, `${join(folder, name)} cannot be written`));
     }
   }
+  if (failed[0]) throw failed[0];
 }

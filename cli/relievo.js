@@ -61,8 +61,12 @@ async function report(error) {
   console.error(`relievo: ${reason}`);
 }
 
-// A reader that has seen enough (| head) is no failure.
-process.stdout.on("error", () => process.exit());
+// A reader that has seen enough (| head) is no failure; a full disk is.
+process.stdout.on("error", ({ code, message }) => {
+  if (code === "EPIPE") process.exit();
+  console.error(`relievo: what there is to say cannot be written: ${message}`);
+  process.exit(1);
+});
 
 try {
   await main(process.argv.slice(2));

@@ -3,7 +3,7 @@
 import { join } from "node:path";
 
 import { UsageError } from "./errors.js";
-import { prepare, write } from "./files.js";
+import { prepare, SCENE, write } from "./files.js";
 import { parse, quoted } from "./words.js";
 
 /** @typedef {import("./options.js").Core} Core */
@@ -35,7 +35,7 @@ export function scene(core, words) {
   const { title, lesson } = made;
   const about = { name, title, lesson, width, height, camera, curves, command };
   const text = `${JSON.stringify(about, null, 2)}\n`;
-  const files = [...made.files(), { name: "scene.json", bytes: text }];
+  const files = [...made.files(), { name: SCENE, bytes: text }];
   write(out, files);
   console.log(`${title}: ${lesson}`);
   console.log(`${out}/: ${files.map((file) => file.name).join(" ")}`);

@@ -1,7 +1,10 @@
 // relievo FRAME1 FRAME2: the whole method on two frames, results into a folder.
 
+import { existsSync } from "node:fs";
+import { join } from "node:path";
+
 import { InputError, UsageError } from "./errors.js";
-import { prepare, read, write } from "./files.js";
+import { prepare, read, SCENE, write } from "./files.js";
 import { catalogue, given, known } from "./options.js";
 import { progress } from "./progress.js";
 import { numbers, parse } from "./words.js";
@@ -45,13 +48,30 @@ export function solve(core, words) {
     JSON.stringify(options),
   );
   const out = values["out"] ?? "out";
-  prepare(out);
+  prepareResults(out);
   run(solver, mostPasses(core, options));
   const files = solver.files("{}");
-  write(out, files);
   if (focal) console.log(focal);
   if (found) announce(found);
-  summarise(JSON.parse(solver.report()), out, files);
+  summarise(JSON.parse(solver.report()));
+  write(out, files);
+  console.log(`${out}/: ${files.map(({ name }) => name).join(" ")}`);
+  if (solver.status === "diverged") {
+    throw new InputError("the solver diverged, so the results mean nothing; try a larger --mu");
+  }
+}
+
+/**
+ * A truth is not written over: to be scored against itself would look like success.
+ * @param {string} out
+ */
+function prepareResults(out) {
+  if (existsSync(join(out, SCENE))) {
+    throw new InputError(
+      `${out} holds a sequence with its truth, which results would replace; choose another folder with --out`,
+    );
+  }
+  prepare(out);
 }
 
 /**
@@ -156,12 +176,8 @@ function announce(found) {
   for (const { points } of found) console.log(`  --polygon ${points.flat().join(",")}`);
 }
 
-/**
- * @param {any} report
- * @param {string} out
- * @param {{ name: string }[]} files
- */
-function summarise({ status, iterations, regions, warnings, seconds }, out, files) {
+/** @param {any} report */
+function summarise({ status, iterations, regions, warnings, seconds }) {
   const vector = (/** @type {number[]} */ v) => v.map((x) => x.toPrecision(3)).join(", ");
   const end = status === "exhausted" ? "out of iterations" : status;
   console.log(`${end} after ${iterations} passes, ${seconds.total.toFixed(1)} s`);
@@ -179,8 +195,4 @@ function summarise({ status, iterations, regions, warnings, seconds }, out, file
     }
   }
   for (const warning of warnings) console.log(`note: ${warning}`);
-  console.log(`${out}/: ${files.map(({ name }) => name).join(" ")}`);
-  if (status === "diverged") {
-    throw new InputError("the solver diverged, so the results mean nothing; try a larger --mu");
-  }
 }

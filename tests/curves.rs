@@ -295,6 +295,25 @@ fn a_polygon_with_many_corners_is_a_circle() {
 }
 
 #[test]
+fn a_polygons_level_set_is_its_distance_at_every_pixel() {
+    let star: Vec<[f64; 2]> = (0..300)
+        .map(|i| (f64::from(i) * 2.0 * PI / 300.0, 9.0 + f64::from(i * i % 17)))
+        .map(|(a, r)| [30.2 + r * a.cos(), 26.7 + r * a.sin()])
+        .collect();
+    let on_pixels = vec![[10.0, 10.0], [40.0, 10.0], [40.0, 30.0], [10.0, 30.0]];
+    let crossing_itself = vec![[5.0, 5.0], [50.0, 45.0], [50.0, 5.0], [5.0, 45.0]];
+    let half_outside = vec![[-400.0, 20.0], [30.0, -300.0], [30.5, 900.0], [30.5, 900.0]];
+    for points in [star, on_pixels, crossing_itself, half_outside] {
+        let shape = Shape::Polygon { points };
+        let phi = shape.level_set(W, H, 0).unwrap();
+        for (x, y) in pixels() {
+            let there = shape.signed_distance(x as f64, y as f64) as f32;
+            assert_eq!(phi[(x, y)], there, "({x}, {y}) of {shape:?}");
+        }
+    }
+}
+
+#[test]
 fn what_is_no_curve_is_refused_by_number() {
     let circle = |x, y, r| Shape::Circle { x, y, r };
     let polygon = |points: &[[f64; 2]]| Shape::Polygon {

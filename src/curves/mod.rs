@@ -5,6 +5,7 @@ mod contour;
 mod evolution;
 mod geodesic;
 mod islands;
+mod polygon;
 mod redistance;
 mod relaxation;
 mod shape;

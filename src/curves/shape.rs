@@ -4,12 +4,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::polygon;
 use crate::error::Error;
 use crate::grid::Grid;
 
 /// A closed curve as drawn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Shape {
     /// A circle.
     Circle {
@@ -32,7 +33,7 @@ impl Shape {
     pub fn signed_distance(&self, x: f64, y: f64) -> f64 {
         match self {
             Shape::Circle { x: cx, y: cy, r } => r - (x - cx).hypot(y - cy),
-            Shape::Polygon { points } => polygon_distance(points, x, y),
+            Shape::Polygon { points } => polygon::signed_distance(points, x, y),
         }
     }
 
@@ -58,9 +59,12 @@ impl Shape {
                 height,
             });
         }
-        let phi = Grid::from_fn(width, height, |x, y| {
-            self.signed_distance(x as f64, y as f64) as f32
-        });
+        let phi = match self {
+            Shape::Circle { .. } => Grid::from_fn(width, height, |x, y| {
+                self.signed_distance(x as f64, y as f64) as f32
+            }),
+            Shape::Polygon { points } => polygon::level_set(points, width, height),
+        };
         if phi.data().iter().all(|&p| p <= 0.0) {
             return Err(Error::CurveEmpty { curve });
         }
@@ -90,26 +94,4 @@ impl Shape {
             }
         }
     }
-}
-
-fn polygon_distance(points: &[[f64; 2]], x: f64, y: f64) -> f64 {
-    let mut nearest = f64::INFINITY;
-    let mut inside = false;
-    for (i, a) in points.iter().enumerate() {
-        let b = points[(i + 1) % points.len()];
-        let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
-        let (px, py) = (x - a[0], y - a[1]);
-        let length2 = ex * ex + ey * ey;
-        let t = if length2 > 0.0 {
-            ((px * ex + py * ey) / length2).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        nearest = nearest.min((px - t * ex).hypot(py - t * ey));
-        // Even–odd rule along the ray to the right.
-        if (a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / (b[1] - a[1]) * ex {
-            inside = !inside;
-        }
-    }
-    if inside { nearest } else { -nearest }
 }

@@ -202,7 +202,7 @@ impl Options {
     ///
     /// # Errors
     /// [`Error::Json`] when the text is no JSON object, [`Error::Choice`] for a key or a choice that
-    /// does not exist, [`Error::Option`] for a number outside its range.
+    /// does not exist, [`Error::Option`] and [`Error::Count`] for a number outside its range.
     pub fn from_json(text: &str) -> Result<Self, Error> {
         let unreadable = |e: serde_json::Error| Error::Json {
             what: "options",
@@ -227,7 +227,7 @@ impl Options {
     /// Checks every setting against its range.
     ///
     /// # Errors
-    /// [`Error::Option`] for the first one outside.
+    /// [`Error::Option`] or [`Error::Count`] for the first one outside.
     pub fn validate(&self) -> Result<(), Error> {
         // JSON has no word for these: they would pass for null, *chosen from the data*.
         for (key, value) in [("mu", self.mu), ("lambda", self.lambda)] {

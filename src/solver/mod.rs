@@ -56,7 +56,7 @@ pub struct Solver {
 }
 
 /// Pixels that the coarse-to-fine approach holds in the 4 GiB of WebAssembly: it takes 700 bytes for each with three
-/// curves, nearly 1000 with eight. Without bound where memory is not.
+/// curves, and more with more. Without bound where memory is not.
 const MOST_PIXELS: Option<usize> = if usize::BITS == 32 {
     Some(4_000_000)
 } else {

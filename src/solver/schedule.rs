@@ -3,7 +3,25 @@
 //! Regions start on a coarse scale: flat (ρ = 1) for some passes while threshold dynamics finds roughly
 //! where they are, then with depth; curves that begin on their bodies are held meanwhile. A scale is done
 //! after a set number of passes; the finest goes over from threshold dynamics to (17) and ends when all
-//! stands still. Passes with depth are counted from 0.
+//! stands still. Passes with depth are counted from 0:
+//!
+//! ```text
+//!        first scale                  between                finest
+//!        (three flat passes before)
+//! 0 1    T is searched for
+//! 1                                   depth is swept         depth is swept
+//! 2                                                          kinds are chosen; from here hidden pixels are excused
+//! 4      depth is swept               kinds are chosen       settled: (17), least partition, depth is swept
+//! 5      depths of relief are chosen  ends                   bodies grow
+//! 6      ends
+//! 7                                                          kinds are chosen again
+//! 8                                                          least partition, bodies grow; from here without rims
+//! 9                                                          from here what covers what is held, and all may rest
+//! 19                                                         rests at the latest
+//! ```
+//!
+//! Where the first scale is the finest, its flat passes and its search come before the last column. At rest motions are
+//! held, regions learn how stiff their depth is, and depth and curves go on.
 
 /// Regions start on the coarsest scale whose shorter side is at least this: where several compete, and
 /// where there is only one. At a coarse scale displacements are small, but so are the differences that tell

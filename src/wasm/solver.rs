@@ -40,6 +40,7 @@ extern "C" {
 
 /// A camera as JavaScript writes it: without a principal point it looks at the centre.
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct CameraJson {
     focal: f64,
     cx: Option<f64>,

@@ -122,6 +122,33 @@ describe("a solver", () => {
     assert.deepEqual([found.report(), found.labels()], before);
   });
 
+  test("takes JSON and what it stands for alike, and says what it cannot take", () => {
+    const [camera, curves] = [scene.cameraJson, scene.shapesJson].map((text) => JSON.parse(text));
+    const plain = new Solver(scene.first(), scene.second(), camera, curves, { preset: "paper" });
+    const text = solver('{"preset": "paper"}');
+    for (const it of [plain, text]) it.step();
+    assert.deepEqual(plain.flowU(), text.flowU());
+    assert.ok(plain.view("depth", { palette: "lagoon" }).width >= WIDTH);
+
+    const bad = /** @type {any} */ (undefined);
+    const message = (/** @type {RegExp} */ sentence) => ({ name: "InputError", message: sentence });
+    assert.throws(
+      () => new Solver(scene.first(), scene.second(), bad, [], {}),
+      message(/camera cannot be read: it must be JSON or an object, and is undefined/),
+    );
+    assert.throws(() => found.setOptions(bad), message(/options.*is undefined/));
+    assert.throws(() => found.view(bad, {}), message(/name of the view.*a string.*undefined/));
+    assert.throws(() => Frame.decode(new Uint8Array(9), bad), message(/name of the file/));
+  });
+
+  test("refuses words it does not know", () => {
+    const [first, second] = [scene.first(), scene.second()];
+    assert.throws(() => new Solver(first, second, { focal: 64, Cx: 1 }, [], {}), { message: /Cx/ });
+    const round = { kind: "circle", x: 9, y: 9, r: 5, z: 1 };
+    assert.throws(() => found.setCurves([round]), { message: /`z`/ });
+    assert.throws(() => found.view("depth", { pallete: "x" }), { message: /pallete/ });
+  });
+
   test("measures its time", () => {
     const { seconds } = JSON.parse(found.report());
     assert.ok(seconds.total > 0);

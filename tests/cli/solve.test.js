@@ -1,7 +1,7 @@
 // relievo FRAME1 FRAME2: what it writes, and that every bad input gets a sentence.
 
 import assert from "node:assert/strict";
-import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { existsSync, mkdirSync, readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
 
@@ -138,6 +138,26 @@ test("an existing folder is written into, and a path that cannot be a folder is 
   assert.match(ran.stderr, /cannot be made/);
 });
 
+test("one file that cannot be written does not cost the others", () => {
+  const out = join(folder, "blocked");
+  mkdirSync(join(out, "depth.png"), { recursive: true });
+  const ran = relievo(first, second, ...FOCAL, "--iterations", "1", "--out", out);
+  assert.equal(ran.status, 1);
+  assert.match(ran.stderr, /depth\.png cannot be written: it is a folder/);
+  assert.match(ran.stdout, /after 1 passes/);
+  for (const name of ["labels.png", "confidence.png"]) assert.ok(existsSync(join(out, name)), name);
+});
+
+test("results do not replace a truth", () => {
+  const out = join(folder, "kept");
+  assert.equal(relievo("scene", "squares", "--size", "80x60", "--out", out).status, 0);
+  const before = readFileSync(join(out, "labels.png"));
+  const ran = relievo(first, second, ...FOCAL, "--iterations", "1", "--out", out);
+  assert.equal(ran.status, 1);
+  assert.match(ran.stderr, /holds a sequence with its truth.*--out/);
+  assert.deepEqual(readFileSync(join(out, "labels.png")), before);
+});
+
 describe("what cannot be worked on ends with 1 and a sentence", () => {
   const small = file("small.pgm", pgm(32, 32, waves(0)));
   const grey = file(
@@ -204,6 +224,12 @@ describe("a wrong command line ends with 2 and a sentence", () => {
     ["a weight below 0", [...pair, ...FOCAL, "--lambda", "-1"], /lambda is -1.*from 0/],
     ["no passes", [...pair, ...FOCAL, "--iterations", "0"], /max_passes is 0/],
     ["half a pass", [...pair, ...FOCAL, "--max-passes", "1.5"], /max_passes is 1\.5/],
+    ["a switch half on", [...pair, ...FOCAL, "--robust", "maybe"], /--robust maybe is neither on/],
+    [
+      "a focal length beyond all",
+      [...pair, "--focal", "1e300"],
+      /focal length is .*from 1 to 10+,/,
+    ],
     [
       "an unknown choice",
       [...pair, ...FOCAL, "--diffusion", "linear"],
