@@ -7,12 +7,13 @@
  * import { Frame, Solver } from "relievo";
  *
  * const [first, second] = ["a.png", "b.png"].map((name) => Frame.decode(readFileSync(name), name));
- * const solver = new Solver(first, second, '{"focal": 320}', "[]", "{}");
+ * const solver = new Solver(first, second, { focal: 320 }, [], {});
  * while (solver.step() === "running");
  * console.log(JSON.parse(solver.report()).regions);
  * ```
  *
- * The last argument holds what differs from the preset `best`, the default: `'{"lambda": 200}'`, or
- * `'{"preset": "paper"}'` for the method as printed. `optionCatalogue()` lists all there is to set.
+ * The last argument holds what differs from the preset `best`, the default: `{ lambda: 200 }`, or
+ * `{ preset: "paper" }` for the method as printed. `optionCatalogue()` lists all there is to set. What
+ * goes in may be JSON text as well; what comes out (`report()`, `findCurves()`, …) is.
  */
 export * from "../pkg/relievo.js";

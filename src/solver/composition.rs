@@ -61,17 +61,22 @@ pub(super) fn composed(
             }
             let (x, y) = ((i % width) as f64, (i / width) as f64);
             let rho = layer.rho.data()[i];
-            let (u, v) = scale
+            let moved = scale
                 .camera
-                .displacement(&layer.motion, x, y, f64::from(rho))
-                .unwrap_or((0.0, 0.0));
+                .displacement(&layer.motion, x, y, f64::from(rho));
+            let (u, v) = moved.unwrap_or((0.0, 0.0));
             flow.u.data_mut()[i] = u as f32;
             flow.v.data_mut()[i] = v as f32;
             depth.data_mut()[i] = rho.recip();
-            let to = [(x + u) as f32, (y + v) as f32];
-            let hidden = !line.inside.data()[i] || cover.as_ref().is_some_and(|c| c.hides(k, to));
-            occluded.data_mut()[i] = u8::from(hidden);
-            if shows && !hidden {
+            let (qx, qy) = (x + u, y + v);
+            // A pixel reaches half of one beyond its centre, where there is nothing to compare with any more.
+            let stays = (-0.5..width as f64 - 0.5).contains(&qx)
+                && (-0.5..height as f64 - 0.5).contains(&qy);
+            let covered = cover
+                .as_ref()
+                .is_some_and(|cover| cover.hides(k, [qx as f32, qy as f32]));
+            occluded.data_mut()[i] = u8::from(moved.is_none() || !stays || covered);
+            if shows && line.inside.data()[i] && !covered {
                 confidence.data_mut()[i] = certain.data()[i];
             }
         }
