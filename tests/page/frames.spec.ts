@@ -177,6 +177,22 @@ test.describe("bad input gets a sentence and changes nothing", () => {
   }
 });
 
+test("of two files at once neither is taken when one is no image", async ({ opened: page }) => {
+  const [one, two] = await framesOf(page, "squares");
+  await first(page).setInputFiles([png("a1.png", one), png("a2.png", two)]);
+  await ownAreOpen(page);
+  const broken = Buffer.from("Once upon a time");
+  for (const [b1, b2, culprit] of [
+    [two, broken, "b2.png"],
+    [broken, one, "b1.png"],
+  ] as const) {
+    await first(page).setInputFiles([png("b1.png", b1), png("b2.png", b2)]);
+    await expect(message(page)).toContainText(culprit, { timeout: PATIENCE });
+    await expect(page.locator("#slots-note")).toContainText("These are your frames");
+    expect(await read(page, (state) => state.names)).toEqual(["a1.png", "a2.png"]);
+  }
+});
+
 test("one frame only is said, kept waiting, and can be discarded", async ({ opened: page }) => {
   const [one] = await framesOf(page, "squares");
   await second(page).setInputFiles(png("late.png", one));
