@@ -77,6 +77,15 @@ test("a polygon takes a click for each corner and closes on the first", async ({
   if (drawn.kind === "polygon") expect(drawn.points).toHaveLength(3);
 });
 
+test("a double click sets the last corner of a polygon and closes it", async ({ opened: page }) => {
+  await pick(page, "Draw a polygon");
+  await click(page, 40, 180);
+  await click(page, 90, 180);
+  const { x, y } = await onScreen(page, 90, 220);
+  await page.mouse.dblclick(x, y);
+  await expect(page.locator("#regions > li").nth(3)).toContainText("3 corners");
+});
+
 test("a curve is moved, resized and deleted by mouse, and all of it undone", async ({
   opened: page,
 }) => {

@@ -2,7 +2,7 @@
  * Drawing and moving curves with mouse, pen or finger; the keyboard's way is in `keys.ts`.
  *
  * Circle: press at the centre, pull out the radius. Freehand: draw round the object, let go. Polygon:
- * a click for each corner, the first corner again (or Enter) closes. Select: drag a curve, or its
+ * a click for each corner, the first or the last corner again (or Enter) closes. Select: drag a curve, or its
  * handle to resize it.
  */
 
@@ -96,7 +96,6 @@ export function mountTools(): void {
     giveUp();
     if (sketch?.tool !== "polygon") setSketch(null);
   });
-  overlay.addEventListener("dblclick", () => sketch?.tool === "polygon" && finish());
   // A finger that draws or has taken hold of a curve (`press` comes first) does not scroll the page.
   overlay.addEventListener(
     "touchstart",
@@ -122,14 +121,20 @@ function press(place: Point, pointer: Pointer): void {
     select(hit?.index ?? null);
     if (hit && mine) takeHold(hit, place, pointer.tremor);
   } else if (tool === "polygon") {
-    const corners = sketch?.points ?? [];
-    const first = corners[0];
-    if (first && corners.length >= 3 && apart(toStage(stagePane(), first), place) < pointer.reach)
-      finish();
-    else setSketch({ tool, points: [...corners, pixel], tip: pixel });
+    addCorner(pixel, pointer);
   } else {
     setSketch({ tool, points: [pixel], tip: pixel });
   }
+}
+
+/** The next corner of a polygon; one that is there already, as of a double click, closes it. */
+function addCorner(pixel: Point, { reach, tremor }: Pointer): void {
+  const points = sketch?.points ?? [];
+  const near = (corner: Point | undefined, distance: number) =>
+    corner !== undefined && apart(corner, pixel) * stagePane().scale < distance;
+  const again = near(points.at(-1), tremor);
+  if (points.length >= 3 && (again || near(points[0], reach))) finish();
+  else if (!again) setSketch({ tool: "polygon", points: [...points, pixel], tip: pixel });
 }
 
 function drag(place: Point): void {
