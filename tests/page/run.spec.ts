@@ -99,8 +99,19 @@ test("where a finer scale begins is marked on the energy and said", async ({ ope
   await expect(page.locator("#status")).toContainText("scale 2/2");
   const plot = page.getByRole("img", { name: "Energy after each pass" });
   await expect(plot).toHaveAccessibleDescription(
-    /on scale 1, from .* on scale 2[.,].*a finer scale begins/,
+    /on scale 1, .* on scale 2[.,].*a finer scale begins/,
   );
+});
+
+test("what is said of the energy is what its line shows", async ({ opened: page }) => {
+  await page.getByRole("button", { name: "Step" }).click();
+  const text = page.locator("#energy-text");
+  await expect(text).toHaveText(/^\S+ after one pass\. /, { timeout: PATIENCE });
+  const [energy] = (await text.textContent())!.split(" ");
+  await page.getByRole("button", { name: "Curve 1", exact: true }).click();
+  await page.keyboard.press("Shift+ArrowRight");
+  await until(page, ({ report }) => report!.energy.total !== report!.history[0]);
+  await expect(text).toHaveText(new RegExp(`^${energy} after one pass\\. `));
 });
 
 test("reset goes back to the drawn curves, and running again starts over", async ({
