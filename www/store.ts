@@ -74,7 +74,7 @@ export interface State {
   started: boolean;
   report: Report | null;
   contours: Contour[];
-  /** Pictures for a view, and which view that is: it may lag behind the one chosen. */
+  /** Pictures, and the name of what they show (`views.ts`): it may lag behind what was chosen. */
   pictures: (ImageBitmap | null)[];
   pictured: string;
   scores: ScoreTable | null;

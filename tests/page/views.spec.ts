@@ -57,6 +57,32 @@ test("the truth, the found and Horn–Schunck stand side by side", async ({ open
   await expect(page.locator("#captions span")).toHaveText(["Truth", "Found", "Horn–Schunck"]);
 });
 
+test("no picture stands under another's name, nor is taken away under it", async ({
+  opened: page,
+}) => {
+  await chooseView(page, "Compare");
+  const stage = page.locator("#stage");
+  const take = page.getByRole("button", { name: "This view as PNG" });
+  await expect(stage).toHaveAttribute("aria-busy", "false");
+  // Looked at before the worker can have answered.
+  const [busy, unavailable, captions] = await page.evaluate(() => {
+    const what = document.querySelector<HTMLSelectElement>("#setting-compare")!;
+    what.value = "labels";
+    what.dispatchEvent(new Event("change"));
+    const take = document.querySelector<HTMLButtonElement>("#save-view")!;
+    return [
+      document.getElementById("stage")!.ariaBusy,
+      take.disabled,
+      getComputedStyle(document.getElementById("captions")!).visibility,
+    ];
+  });
+  expect([busy, unavailable, captions]).toEqual(["true", true, "hidden"]);
+  await until(page, ({ pictured }) => pictured === "compare labels");
+  await expect(stage).toHaveAttribute("aria-busy", "false");
+  await expect(take).toBeEnabled();
+  await expect(page.locator("#captions span").first()).toBeVisible();
+});
+
 test("the depth slider of a region changes depth, not its outline", async ({ opened: page }) => {
   await runPasses(page, DEEP);
   await chooseView(page, "Labels");

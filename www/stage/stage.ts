@@ -7,7 +7,7 @@
 
 import { byId, make } from "../dom";
 import { store, type State } from "../store";
-import { asks, captionsOf, viewOf } from "../views";
+import { asks, awaited, captionsOf, viewOf } from "../views";
 import type { Contour } from "../worker/protocol";
 import { SharpCanvas } from "./canvas";
 import { drawShapes } from "./outline";
@@ -64,6 +64,16 @@ export function mountStage(): void {
     ],
     caption,
   );
+  store.watch(
+    ({ frames, view, viewParams, pictured, running }) => [
+      frames,
+      view,
+      viewParams,
+      pictured,
+      running,
+    ],
+    wait,
+  );
   store.watch(({ showing }) => [showing], flicker);
 }
 
@@ -90,8 +100,8 @@ function paintPictures(context: CanvasRenderingContext2D, size: Box): void {
   const frame = { width: state.width, height: state.height };
   const view = viewOf(state.view);
   const wanted = asks(state).length;
-  // Another view was chosen and its picture is not there yet: the last one stays till then.
-  if (wanted > 0 && state.pictured !== state.view) return;
+  // Till what was chosen is there, the last picture stays, and `wait` dims it.
+  if (awaited(state)) return;
   context.clearRect(0, 0, size.width, size.height);
   if (!state.frames || frame.width === 0 || view.id === "relief") return;
   const captioned = captionsOf(state).length > 0;
@@ -169,6 +179,12 @@ function placeCaptions(layout: Pane[]): void {
     element.style.transform = `translate(${pane.left}px, ${pane.top - CAPTION_HEIGHT}px)`;
     element.style.maxWidth = `${store.state.width * pane.scale}px`;
   }
+}
+
+/** A picture under another's name would be mistaken for it: it dims, and its captions go. */
+function wait(state: Readonly<State>): void {
+  byId("stage").ariaBusy = String(awaited(state));
+  byId("awaited").textContent = state.running ? "Drawn once this pass is done…" : "Being drawn…";
 }
 
 let beat: ReturnType<typeof setInterval> | undefined;
