@@ -1,5 +1,9 @@
 /** Every view draws a picture, and one of its own. */
 
+import { readFile } from "node:fs/promises";
+
+import type { Page } from "@playwright/test";
+
 import { chooseView, DEEP, drawn, expect, look, read, runPasses, test, until } from "./helpers";
 
 const FLAT = ["Depth", "Motion", "Anaglyph", "Labels", "Confidence", "Occlusion", "Compare"];
@@ -142,6 +146,40 @@ test("the relief stands, turns by keyboard and mouse, and takes plaster", async 
   await changed("plaster");
   await page.getByRole("slider", { name: "Light" }).fill("300");
   await changed("light");
+});
+
+/** The present view as it is saved. */
+async function saved(page: Page): Promise<Buffer> {
+  const [picture] = await Promise.all([
+    page.waitForEvent("download"),
+    page.getByRole("button", { name: "This view as PNG" }).click(),
+  ]);
+  return readFile(await picture.path());
+}
+
+test("curves that are only drawn are on the picture of their view", async ({ opened: page }) => {
+  const both = await saved(page);
+  await page.getByRole("button", { name: "Delete curve 1" }).click();
+  await drawn(page);
+  expect((await saved(page)).equals(both)).toBe(false);
+});
+
+test("pictures compared keep their names when they are taken away", async ({ opened: page }) => {
+  await chooseView(page, "Compare");
+  const png = (await saved(page)).toString("base64");
+  const [edge, line] = await page.evaluate(async (png) => {
+    const picture = await createImageBitmap(
+      await (await fetch(`data:image/png;base64,${png}`)).blob(),
+    );
+    const context = new OffscreenCanvas(picture.width, picture.height).getContext("2d")!;
+    context.drawImage(picture, 0, 0);
+    return [0, 13].map((y) => {
+      const { data } = context.getImageData(0, y, picture.width, 1);
+      return new Set(new Uint32Array(data.buffer)).size;
+    });
+  }, png);
+  expect(edge, "colours above the names").toBe(1);
+  expect(line, "colours across the names").toBeGreaterThan(1);
 });
 
 test("the view and the results can be taken away", async ({ opened: page }) => {

@@ -2,7 +2,7 @@
 
 import { byId, make } from "../dom";
 import { ask } from "../session";
-import { stagePicture } from "../stage/stage";
+import { stagePicture } from "../stage/snapshot";
 import { store } from "../store";
 import { awaited, wantedParams } from "../views";
 import type { ResultFile } from "../worker/protocol";

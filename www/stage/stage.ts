@@ -11,10 +11,9 @@ import { asks, awaited, captionsOf, viewOf } from "../views";
 import type { Contour } from "../worker/protocol";
 import { SharpCanvas } from "./canvas";
 import { drawShapes } from "./outline";
-import { panes, presentPanes, setPanes, stagePane, type Box, type Pane } from "./place";
+import { CAPTION_HEIGHT, panes, setPanes, stagePane, type Box, type Pane } from "./place";
 import { drawSketch, sketchChanged } from "./tools";
 
-const CAPTION_HEIGHT = 26;
 const FLICKER_MS = 450;
 
 let flickerSecond = false;
@@ -75,24 +74,6 @@ export function mountStage(): void {
     wait,
   );
   store.watch(({ showing }) => [showing], flicker);
-}
-
-/** The present view as a PNG, at the resolution of the screen. */
-export async function stagePicture(): Promise<Blob | null> {
-  const { width, height } = store.state;
-  const layout = presentPanes();
-  if (layout.length === 0) return null;
-  const right = Math.max(...layout.map(({ left, scale }) => left + width * scale));
-  const bottom = Math.max(...layout.map(({ top, scale }) => top + height * scale));
-  const left = Math.min(...layout.map((pane) => pane.left));
-  const top = Math.min(...layout.map((pane) => pane.top));
-  const dense = lower.element.width / lower.size.width;
-  const copy = new OffscreenCanvas(
-    Math.round((right - left) * dense),
-    Math.round((bottom - top) * dense),
-  );
-  copy.getContext("2d")!.drawImage(lower.element, -left * dense, -top * dense);
-  return copy.convertToBlob({ type: "image/png" });
 }
 
 function paintPictures(context: CanvasRenderingContext2D, size: Box): void {
