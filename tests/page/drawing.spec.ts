@@ -37,6 +37,12 @@ async function click(page: Page, x: number, y: number): Promise<void> {
 const pick = (page: Page, name: string) =>
   page.getByRole("radio", { name, exact: true }).check({ force: true });
 
+test("tools stand beside the picture, not on it", async ({ opened: page }) => {
+  const tools = (await page.locator("#tools").boundingBox())!;
+  const stage = (await page.locator("#overlay").boundingBox())!;
+  expect(tools.x + tools.width).toBeLessThanOrEqual(stage.x);
+});
+
 test("a circle is pulled out from its centre", async ({ opened: page }) => {
   await pick(page, "Draw a circle");
   await drag(page, [60, 190], [90, 190]);
