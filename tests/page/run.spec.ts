@@ -219,3 +219,5 @@ test("a refused value leaves the run alone, and its sentence goes with it", asyn
   await openScene(page, "head");
   await expect(page.locator("#message")).toBeHidden();
 });
+  // Files of one pass would be gone with the next.
+  await expect(page.getByRole("button", { name: "Result files" })).toBeDisabled();

@@ -40,9 +40,10 @@ export function mountFiles(): void {
     save(blob, `relievo-${name}-${view}.png`);
   });
   store.watch(
-    ({ frames, started, busy }) => [frames, started, busy],
-    ({ frames, started, busy }) => {
-      list.disabled = !started || busy !== null;
+    ({ frames, started, running, busy }) => [frames, started, running, busy],
+    ({ frames, started, running, busy }) => {
+      // The next pass would take away what this one wrote.
+      list.disabled = !started || running || busy !== null;
       byId<HTMLButtonElement>("save-view").disabled = !frames;
     },
   );
