@@ -12,6 +12,7 @@ import {
   png,
   read,
   runPasses,
+  ready,
   test,
   until,
 } from "./helpers";
@@ -287,3 +288,15 @@ test("the focal length is found where the frames tell it, and kept where they do
   expect(Math.abs(Math.log(Number(await field.inputValue()) / (truth * width)))).toBeLessThan(0.4);
   await expect(message(page)).toBeHidden();
 });
+test("a focal length typed while one is looked for is kept", async ({ opened: page }) => {
+  await page.evaluate(() => {
+    document.getElementById("find-focal")!.click();
+    const field = document.getElementById("focal") as HTMLInputElement;
+    field.value = "555";
+    field.dispatchEvent(new Event("change"));
+  });
+  await ready(page);
+  await expect(page.getByLabel("Focal length f, px")).toHaveValue("555");
+  expect(await read(page, (state) => state.camera.focal)).toBe(555);
+});
+
