@@ -130,6 +130,7 @@ test("runs to an end by itself and says which", async ({ opened: page }) => {
   await expect(page.getByRole("button", { name: "Run" })).toBeVisible();
   await expect(page.locator("#announcer")).toContainText(/passes/);
 });
+  await expect(page.getByRole("button", { name: "Step" })).toBeDisabled();
 
 test("numbers stand beside each region, and scores where the truth is known", async ({
   opened: page,
