@@ -70,7 +70,7 @@ test("two at once are ordered by name, and swapped on demand", async ({ opened: 
   expect((await look(page)).print).not.toBe(opened.print);
 });
 
-test("a sequence chosen while own frames are read is the one that opens", async ({
+test("a sequence chosen while own frames are read is the one that opens; they can be used later", async ({
   opened: page,
 }) => {
   const files = (await framesOf(page, "squares")).map((buffer) => buffer.toString("base64"));
@@ -87,6 +87,8 @@ test("a sequence chosen while own frames are read is the one that opens", async 
   }, files);
   await until(page, (state) => state.slots[1] !== null && state.busy === null);
   expect((await kept(page)).name).toBe("figure");
+  await page.getByRole("button", { name: "Use them" }).click();
+  await ownAreOpen(page);
 });
 
 test("while a sequence is being opened nothing runs, though a look for curves ends", async ({

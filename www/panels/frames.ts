@@ -88,11 +88,16 @@ function render(state: Readonly<State>): void {
   if (held) document.getElementById(held)?.focus();
   const note = byId("slots-note");
   note.replaceChildren(explain(state, own));
-  if (own) {
-    const discard = make("button", { type: "button", class: "quiet", id: "discard" }, "Discard");
-    discard.addEventListener("click", () => store.update({ slots: [null, null] }));
-    if (!inUse(state)) note.append(" ", discard);
-  }
+  if (!own || inUse(state)) return;
+  const discard = () => store.update({ slots: [null, null] });
+  if (slots[0] && slots[1]) note.append(" ", button("use", "Use them", openBoth));
+  note.append(" ", button("discard", "Discard", discard));
+}
+
+function button(id: string, name: string, press: () => unknown): HTMLElement {
+  const element = make("button", { type: "button", class: "quiet", id }, name);
+  element.addEventListener("click", () => void press());
+  return element;
 }
 
 function explain(state: Readonly<State>, own: boolean): string {
