@@ -45,6 +45,8 @@ export interface State {
   catalogues: Catalogues | null;
   /** The pair being worked on. */
   source: Source | null;
+  /** The pair asked for last, until it is open or refused. */
+  opening: Source | null;
   title: string;
   lesson: string;
   width: number;
@@ -67,10 +69,10 @@ export interface State {
   focalFinding: string | null;
   options: OptionValues;
 
-  /** What the page is waiting for, as a phrase; `null` when it waits for nothing. */
+  /** What the page is waiting for, as a phrase (`busy.ts`); `null` when it waits for nothing. */
   busy: string | null;
   running: boolean;
-  /** Whether anything was computed since the curves were drawn; until then they are the contours. */
+  /** Whether the solver has been at work; until then the drawn curves are the contours. */
   started: boolean;
   report: Report | null;
   contours: Contour[];
@@ -123,6 +125,7 @@ export class Store {
 export const store = new Store({
   catalogues: null,
   source: null,
+  opening: null,
   title: "",
   lesson: "",
   width: 0,

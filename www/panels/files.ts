@@ -40,9 +40,10 @@ export function mountFiles(): void {
     save(blob, `relievo-${name}-${view}.png`);
   });
   store.watch(
-    ({ started, busy }) => [started, busy],
-    ({ started, busy }) => {
-      list.disabled = !started || busy !== null;
+    ({ started, running, busy }) => [started, running, busy],
+    ({ started, running, busy }) => {
+      // The next pass would take away what this one wrote.
+      list.disabled = !started || running || busy !== null;
     },
   );
   store.watch(

@@ -6,7 +6,7 @@
  */
 
 import { byId, icon, make } from "../dom";
-import { ask, open } from "../session";
+import { ask, open, overtaken } from "../session";
 import { store, type Slot, type State } from "../store";
 
 const ACCEPT = "image/png,image/jpeg,image/webp,image/bmp,image/tiff,.pnm,.pgm,.ppm,.pbm,.pam,.tif";
@@ -28,6 +28,7 @@ async function takeAll(files: File[], side: 0 | 1 | null): Promise<void> {
     .toSorted((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }))
     .slice(0, 2);
   if (chosen.length === 0) return;
+  const then = store.state;
   const at = chosen.length === 2 ? 0 : (side ?? (store.state.slots[0] ? 1 : 0));
   // All are read before any takes its slot: beside one that is no image, its partner would be
   // paired with an older frame.
@@ -40,7 +41,8 @@ async function takeAll(files: File[], side: 0 | 1 | null): Promise<void> {
   store.update({
     slots: store.state.slots.toSpliced(at, taken.length, ...taken) as State["slots"],
   });
-  await openBoth();
+  // What was chosen while files were read is what is wanted.
+  if (!overtaken(then)) await openBoth();
 }
 
 async function take(file: File, unnamed: string): Promise<Slot | null> {
@@ -86,11 +88,16 @@ function render(state: Readonly<State>): void {
   if (held) document.getElementById(held)?.focus();
   const note = byId("slots-note");
   note.replaceChildren(explain(state, own));
-  if (own) {
-    const discard = make("button", { type: "button", class: "quiet", id: "discard" }, "Discard");
-    discard.addEventListener("click", () => store.update({ slots: [null, null] }));
-    if (!inUse(state)) note.append(" ", discard);
-  }
+  if (!own || inUse(state)) return;
+  const discard = () => store.update({ slots: [null, null] });
+  if (slots[0] && slots[1]) note.append(" ", button("use", "Use them", openBoth));
+  note.append(" ", button("discard", "Discard", discard));
+}
+
+function button(id: string, name: string, press: () => unknown): HTMLElement {
+  const element = make("button", { type: "button", class: "quiet", id }, name);
+  element.addEventListener("click", () => void press());
+  return element;
 }
 
 function explain(state: Readonly<State>, own: boolean): string {
