@@ -1,7 +1,7 @@
 /**
  * Editing the initial curves: every change is a step that can be undone.
  *
- * While a curve is being dragged it is `preview`ed, and becomes a step when it is let go.
+ * While a curve is being dragged it is `preview`ed, and becomes a step when it is let go (`stage/grip.ts`).
  */
 
 import { announce } from "./dom";
@@ -12,27 +12,14 @@ import type { Point, Shape } from "./worker/protocol";
 
 const MAX_UNDO = 200;
 
-let dragged: Shape[] | null = null;
-
 /** Shows the curves as they would be, without making a step of it. */
-export function preview(index: number, shape: Shape): void {
-  dragged ??= store.state.shapes;
-  store.update({ shapes: store.state.shapes.with(index, shape) });
+export function preview(shapes: Shape[]): void {
+  store.update({ shapes });
 }
 
-/** Makes one step of everything previewed since the last. */
-export function settle(): void {
-  if (!dragged) return;
-  const before = dragged;
-  dragged = null;
+/** Makes one step of everything previewed since the curves were `before`. */
+export function settle(before: Shape[]): void {
   record(before, store.state.shapes, store.state.selected);
-}
-
-/** Takes back what was previewed. */
-export function abandon(): void {
-  if (!dragged) return;
-  store.update({ shapes: dragged });
-  dragged = null;
 }
 
 export function add(shape: Shape): void {

@@ -5,21 +5,14 @@
  * message bar; frames and curves live in the store and survive a broken or stopped worker.
  */
 
+import { during } from "./busy";
 import { announce } from "./dom";
+import { adopt, sameFrames } from "./opened";
 import { store, type State } from "./store";
 import { wantedBy } from "./views";
 import { ending, sentence } from "./wording";
-import { Client, Ended } from "./worker/client";
-import type {
-  Failure,
-  MeshData,
-  Opened,
-  Part,
-  Progress,
-  Setup,
-  Source,
-  Wanted,
-} from "./worker/protocol";
+import { Client, Ended, type Remote } from "./worker/client";
+import type { Failure, MeshData, Part, Progress, Setup, Source, Wanted } from "./worker/protocol";
 
 /** Size at which built-in sequences are ray-cast. */
 const SCENE_SIZE = { width: 320, height: 240 };
@@ -49,46 +42,29 @@ export function openScene(name: string): Promise<boolean> {
 
 /** Opens a pair; what was open stays when this one is no good. */
 export function open(source: Source, phrase: string): Promise<boolean> {
+  store.update({ opening: source });
   return attempt(phrase, async () => {
-    const opened = await client.call((service) => service.open(source, null));
-    forgetAsked();
-    adopt(source, opened);
-    await look();
-    announce(`${opened.title} is open, ${opened.width} by ${opened.height} pixels.`);
+    try {
+      await client.inTurn(async (service) => {
+        // Another may have been chosen while this one waited.
+        if (store.state.opening !== source) return;
+        const keep = sameFrames(source, store.state.source);
+        const opened = await service.open(source, keep ? setupOf(store.state) : null);
+        forgetAsked();
+        adopt(source, opened, keep);
+        await look();
+        announce(`${opened.title} is open, ${opened.width} by ${opened.height} pixels.`);
+      });
+    } finally {
+      if (store.state.opening === source) store.update({ opening: null });
+    }
   });
 }
 
-function adopt(source: Source, opened: Opened): void {
-  store.state.frames?.forEach((frame) => frame.close());
-  store.update({
-    source,
-    title: opened.title,
-    lesson: opened.lesson,
-    width: opened.width,
-    height: opened.height,
-    frames: opened.frames,
-    names: opened.names,
-    truth: opened.truth,
-    shapes: opened.setup.shapes,
-    camera: opened.setup.camera,
-    focalFinding: null,
-    selected: null,
-    past: [],
-    future: [],
-    finding: null,
-    running: false,
-    started: false,
-    report: null,
-    contours: [],
-    pictures: [],
-    pictured: "",
-    scores: null,
-    scales: [],
-    showing: "first",
-    tool: "select",
-  });
-  // A view that needs the truth makes no sense without.
-  if (!opened.truth && store.state.view === "compare") store.update({ view: "curves" });
+/** Whether another pair was asked for since the state was `then`, and was not refused. */
+export function overtaken(then: Readonly<State>): boolean {
+  const known = [then.source, then.opening, null];
+  return !known.includes(store.state.source) || !known.includes(store.state.opening);
 }
 
 const setupOf = (state: Readonly<State>): Setup => ({
@@ -97,14 +73,29 @@ const setupOf = (state: Readonly<State>): Setup => ({
   options: { ...state.options },
 });
 
+/**
+ * Sends the solver to work, and looks anew: what was computed before would tell of another state.
+ * What is refused leaves everything as it was.
+ */
+async function command(
+  patch: Partial<State>,
+  use: (service: Remote, setup: Setup, wanted: Wanted) => Promise<void>,
+): Promise<boolean> {
+  const { running, started } = store.state;
+  forgetAsked();
+  store.update(patch);
+  const done = await attempt(null, () =>
+    client.inTurn((service) => use(service, setupOf(store.state), want())),
+  );
+  if (!done) store.update({ running: running && store.state.running, started });
+  return done;
+}
+
 export async function run(): Promise<void> {
   if (store.state.running) return;
-  store.update({ running: true, started: true, selected: null });
-  const ok = await attempt(null, async () => {
-    await client.call((service) => service.run(setupOf(store.state)));
-    announce("Running.");
-  });
-  if (!ok) store.update({ running: false });
+  const patch = { running: true, started: true, selected: null };
+  const done = await command(patch, (service, setup, wanted) => service.run(setup, wanted));
+  if (done) announce("Running.");
 }
 
 /** The worker finishes the step it is in; the progress after it says that it has stopped. */
@@ -113,25 +104,27 @@ export async function pause(): Promise<void> {
 }
 
 export function step(part: Part): Promise<boolean> {
-  store.update({ started: true });
-  return attempt(null, () => client.call((service) => service.step(setupOf(store.state), part)));
+  return command({ started: true }, (service, setup, wanted) => service.step(setup, part, wanted));
 }
 
 export async function reset(): Promise<void> {
-  await attempt(null, async () => {
-    await client.call((service) => service.reset(setupOf(store.state)));
-    announce("Back at the drawn curves.");
-  });
-  store.update({ running: false, started: false });
+  const done = await command({}, (service, setup, wanted) => service.reset(setup, wanted));
+  if (done) announce("Back at the drawn curves.");
 }
 
 /** Stops at once: asks first, and ends the worker when it does not answer. */
 export async function cancel(): Promise<void> {
-  const polite = client.call((service) => service.reset(setupOf(store.state))).then(() => true);
+  // Without the page's settings, which may be what is wrong. A refusal is an answer, too.
+  const polite = client
+    .call((service) => service.reset(null, want()))
+    .then(
+      () => true,
+      (error: Error) => error.name !== "Panic",
+    );
   const late = new Promise<boolean>((resolve) => setTimeout(() => resolve(false), PATIENCE_MS));
-  const answered = await Promise.race([polite.catch(() => false), late]);
+  const answered = await Promise.race([polite, late]);
+  store.update({ running: false, started: false });
   if (!answered) await recover();
-  store.update({ running: false, started: false, busy: null });
   announce("Cancelled; frames and curves are kept.");
 }
 
@@ -163,32 +156,28 @@ function want(): Wanted {
   return { id: asked, ...wantedBy(store.state) };
 }
 
+/** What has not been sent yet, and so will tell of later changes, too. */
 let configuring: Promise<void> | null = null;
-let configureAgain = false;
 
 /** Tells the worker of changed curves, camera or options: the latest only, one at a time. */
 export async function configure(): Promise<void> {
   // What was wrong with the last setting says nothing of the next. Taken down now, not once the
   // worker has answered: by then the message may be that of a later one.
   store.update({ message: null });
-  await attempt(null, configured);
+  configuring ??= client.inTurn(configured);
+  const mine = configuring;
+  await attempt(null, () => mine);
+  // It may have ended with its worker before it was sent.
+  if (configuring === mine) configuring = null;
 }
 
-async function configured(): Promise<void> {
-  if (configuring) {
-    configureAgain = true;
-    return configuring;
-  }
-  configuring = (async () => {
-    do {
-      configureAgain = false;
-      await client.call((service) => service.configure(setupOf(store.state)));
-    } while (configureAgain);
-  })();
+async function configured(service: Remote): Promise<void> {
+  configuring = null;
   try {
-    await configuring;
-  } finally {
-    configuring = null;
+    await service.configure(setupOf(store.state));
+  } catch (error) {
+    // Nobody needs to hear what was wrong with a setting that has been changed since.
+    if (!configuring || (error as Error).name === "Panic") throw error;
   }
 }
 
@@ -205,20 +194,19 @@ export async function ask<T>(
 }
 
 /** Runs a command; `false` when it failed, which the message bar then explains. */
-async function attempt(phrase: string | null, work: () => Promise<unknown>): Promise<boolean> {
-  if (phrase) store.update({ busy: phrase });
-  try {
-    await work();
-    return true;
-  } catch (error) {
-    if (!(error instanceof Ended)) {
-      const { name, message } = error as Error;
-      failed({ message, panic: name === "Panic" });
+function attempt(phrase: string | null, work: () => Promise<unknown>): Promise<boolean> {
+  return during(phrase, async () => {
+    try {
+      await work();
+      return true;
+    } catch (error) {
+      if (!(error instanceof Ended)) {
+        const { name, message } = error as Error;
+        failed({ message, panic: name === "Panic" });
+      }
+      return false;
     }
-    return false;
-  } finally {
-    if (phrase) store.update({ busy: null });
-  }
+  });
 }
 
 function failed({ message, panic }: Failure, stopped = panic): void {
@@ -238,28 +226,24 @@ let recovering = false;
 async function recover(): Promise<void> {
   if (recovering) return;
   recovering = true;
+  client.restart();
+  const reopened = attempt("Starting afresh", () => client.inTurn(reopen));
+  // Commands that were under way end first, and say what they know of the run.
+  await new Promise((next) => setTimeout(next));
+  forgetAsked();
+  store.update({ running: false, started: false, report: null, contours: [], scores: null });
+  if (await reopened) await look();
+  recovering = false;
+}
+
+async function reopen(service: Remote): Promise<void> {
+  const { source } = store.state;
+  if (!source) return;
   try {
-    client.restart();
-    // Commands that were under way end first, and with them what they said the page was busy with.
-    await new Promise((next) => setTimeout(next));
-    forgetAsked();
-    const { source } = store.state;
-    store.update({
-      busy: "Starting afresh",
-      running: false,
-      started: false,
-      report: null,
-      contours: [],
-      scores: null,
-    });
-    if (!source) return;
-    await client.call((service) => service.open(source, setupOf(store.state)));
-    await client.call((service) => service.look(want()));
-  } catch (error) {
-    if (!(error instanceof Ended)) store.update({ message: sentence((error as Error).message) });
-  } finally {
-    recovering = false;
-    store.update({ busy: null });
+    await service.open(source, setupOf(store.state));
+  } catch {
+    // Frames are there for whoever mends the setting; what is wrong with it is said when it is used.
+    await service.open(source, null);
   }
 }
 
@@ -276,6 +260,7 @@ async function show(progress: Progress): Promise<void> {
   const finished = state.running && !progress.running;
   store.update({
     running: progress.running,
+    started: progress.started,
     report: progress.report,
     contours: progress.contours,
     pictures,

@@ -45,6 +45,8 @@ export interface State {
   catalogues: Catalogues | null;
   /** The pair being worked on. */
   source: Source | null;
+  /** The pair asked for last, until it is open or refused. */
+  opening: Source | null;
   title: string;
   lesson: string;
   width: number;
@@ -67,14 +69,14 @@ export interface State {
   focalFinding: string | null;
   options: OptionValues;
 
-  /** What the page is waiting for, as a phrase; `null` when it waits for nothing. */
+  /** What the page is waiting for, as a phrase (`busy.ts`); `null` when it waits for nothing. */
   busy: string | null;
   running: boolean;
-  /** Whether anything was computed since the curves were drawn; until then they are the contours. */
+  /** Whether the solver has been at work; until then the drawn curves are the contours. */
   started: boolean;
   report: Report | null;
   contours: Contour[];
-  /** Pictures for a view, and which view that is: it may lag behind the one chosen. */
+  /** Pictures, and the name of what they show (`views.ts`): it may lag behind what was chosen. */
   pictures: (ImageBitmap | null)[];
   pictured: string;
   scores: ScoreTable | null;
@@ -123,6 +125,7 @@ export class Store {
 export const store = new Store({
   catalogues: null,
   source: null,
+  opening: null,
   title: "",
   lesson: "",
   width: 0,

@@ -173,7 +173,7 @@ export function wantedParams({
 export function wantedBy(state: Readonly<State>): Omit<Wanted, "id"> {
   const params = wantedParams(state);
   return {
-    view: state.view,
+    view: nameOf(state),
     pictures: asks(state).map(([of, kind]) => ({ of, kind, params })),
     longest: screenSide(),
     mesh: state.view === "relief" ? params : null,
@@ -206,6 +206,18 @@ const NAMES: Record<Whose, string> = {
   found: "Found",
   "horn-schunck": "Horn–Schunck",
 };
+
+/** A name for what is shown: the view, and the kinds of its pictures where they can be chosen. */
+function nameOf({ view, viewParams }: Readonly<State>): string {
+  return [view, ...viewOf(view).kinds(viewParams)].join(" ");
+}
+
+/** Whether what is shown is still to come: a worker that runs answers after the pass it is in. */
+export function awaited(state: Readonly<State>): boolean {
+  const { frames, view, pictured } = state;
+  // Curves lie on the frame itself, which is there.
+  return frames !== null && view !== "curves" && pictured !== nameOf(state);
+}
 
 /** A name above each picture, where there are several. */
 export function captionsOf(state: Readonly<State>): string[] {

@@ -94,6 +94,17 @@ test.describe("on a phone", () => {
   });
 });
 
+test("the keyboard keeps its place when what it pressed goes away", async ({ opened: page }) => {
+  const press = (name: string) => page.getByRole("button", { name }).press("Enter");
+  await press("Delete curve 1");
+  await expect(page.getByRole("button", { name: "Delete curve 1" })).toBeFocused();
+  await press("Delete curve 1");
+  await expect(page.getByRole("button", { name: "Add a circle" })).toBeFocused();
+  await runPasses(page, 1);
+  await press("Reset");
+  await expect(page.getByRole("button", { name: "Run" })).toBeFocused();
+});
+
 test("the keyboard reaches everything and always shows where it is", async ({ opened: page }) => {
   const reached = new Set<string>();
   for (let i = 0; i < 60; i++) {

@@ -2,7 +2,18 @@
 
 import type { Page } from "@playwright/test";
 
-import { expect, look, onScreen, read, ready, runPasses, test, until } from "./helpers";
+import {
+  expect,
+  look,
+  onScreen,
+  openScene,
+  PATIENCE,
+  read,
+  ready,
+  runPasses,
+  test,
+  until,
+} from "./helpers";
 
 const shapes = (page: Page) => read(page, (state) => state.shapes);
 
@@ -25,6 +36,12 @@ async function click(page: Page, x: number, y: number): Promise<void> {
 
 const pick = (page: Page, name: string) =>
   page.getByRole("radio", { name, exact: true }).check({ force: true });
+
+test("tools stand beside the picture, not on it", async ({ opened: page }) => {
+  const tools = (await page.locator("#tools").boundingBox())!;
+  const stage = (await page.locator("#overlay").boundingBox())!;
+  expect(tools.x + tools.width).toBeLessThanOrEqual(stage.x);
+});
 
 test("a circle is pulled out from its centre", async ({ opened: page }) => {
   await pick(page, "Draw a circle");
@@ -66,6 +83,15 @@ test("a polygon takes a click for each corner and closes on the first", async ({
   if (drawn.kind === "polygon") expect(drawn.points).toHaveLength(3);
 });
 
+test("a double click sets the last corner of a polygon and closes it", async ({ opened: page }) => {
+  await pick(page, "Draw a polygon");
+  await click(page, 40, 180);
+  await click(page, 90, 180);
+  const { x, y } = await onScreen(page, 90, 220);
+  await page.mouse.dblclick(x, y);
+  await expect(page.locator("#regions > li").nth(3)).toContainText("3 corners");
+});
+
 test("a curve is moved, resized and deleted by mouse, and all of it undone", async ({
   opened: page,
 }) => {
@@ -98,6 +124,48 @@ test("a curve is moved, resized and deleted by mouse, and all of it undone", asy
   await page.getByRole("button", { name: "Redo", exact: true }).click();
   now = (await shapes(page))[0]!;
   if (now.kind === "circle") expect(now.x).toBeCloseTo(first.x + 30, 0);
+});
+
+test("a hand that trembles in a click chooses a curve and moves nothing", async ({
+  opened: page,
+}) => {
+  const start = await shapes(page);
+  const { x, y } = await onScreen(page, 107, 80);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 1, y);
+  await page.mouse.move(x + 2, y + 2);
+  await page.mouse.up();
+  expect(await read(page, (state) => state.selected)).toBe(0);
+  expect(await shapes(page)).toEqual(start);
+  await expect(page.getByRole("button", { name: "Undo", exact: true })).toBeDisabled();
+});
+
+test("a curve is out of one's hand once others take its place", async ({ opened: page }) => {
+  const hold = async () => {
+    const { x, y } = await onScreen(page, 107, 80);
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 20, y, { steps: 2 });
+    return async () => {
+      await page.mouse.move(x + 40, y, { steps: 2 });
+      await page.mouse.up();
+    };
+  };
+  let letGo = await hold();
+  await page.evaluate(() => document.getElementById("find")!.click());
+  await expect(page.locator("#hint")).toHaveText("2 curves found.", { timeout: PATIENCE });
+  const found = await shapes(page);
+  await letGo();
+  expect(await shapes(page)).toEqual(found);
+  await expect(page.locator("#hint")).toHaveText("2 curves found.");
+
+  letGo = await hold();
+  await openScene(page, "squares");
+  const own = await shapes(page);
+  await letGo();
+  expect(await shapes(page)).toEqual(own);
+  await expect(page.getByRole("button", { name: "Undo", exact: true })).toBeDisabled();
 });
 
 test("everything can be done by keyboard", async ({ opened: page }) => {
@@ -219,9 +287,10 @@ test("no more curves than regions", async ({ opened: page }) => {
 test.describe("by touch", () => {
   test.use({ hasTouch: true, viewport: { width: 390, height: 844 } });
 
-  test("a finger draws and moves a curve", async ({ opened: page }) => {
+  /** Strokes of a finger, through pixels of the frame. */
+  async function fingerOf(page: Page): Promise<(...way: [number, number][]) => Promise<void>> {
     const finger = await page.context().newCDPSession(page);
-    const stroke = async (...way: [number, number][]) => {
+    return async (...way) => {
       const points = await Promise.all(way.map((place) => onScreen(page, ...place)));
       await finger.send("Input.dispatchTouchEvent", {
         type: "touchStart",
@@ -232,6 +301,24 @@ test.describe("by touch", () => {
       }
       await finger.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
     };
+  }
+
+  test("a finger moves the curve that it has chosen, and no other", async ({ opened: page }) => {
+    const stroke = await fingerOf(page);
+    await page.locator("#overlay").scrollIntoViewIfNeeded();
+    const middle = async () => {
+      const circle = (await shapes(page))[0]!;
+      return circle.kind === "circle" ? [Math.round(circle.x), Math.round(circle.y)] : [];
+    };
+    expect(await middle()).toEqual([107, 80]);
+    await stroke([107, 80], [127, 80], [147, 80], [167, 80]);
+    await expect.poll(() => read(page, (state) => state.selected)).toBe(0);
+    await stroke([107, 80], [107, 100], [107, 120], [107, 140]);
+    await expect.poll(middle).toEqual([107, 140]);
+  });
+
+  test("a finger draws and moves a curve", async ({ opened: page }) => {
+    const stroke = await fingerOf(page);
     await ready(page);
     await page.locator("#overlay").scrollIntoViewIfNeeded();
     await pick(page, "Draw a circle");

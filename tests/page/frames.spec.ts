@@ -2,6 +2,7 @@
 
 import type { Page } from "@playwright/test";
 
+import type { State } from "../../www/store";
 import { walls } from "../walls.js";
 import {
   expect,
@@ -11,6 +12,7 @@ import {
   plainPng,
   png,
   read,
+  ready,
   runPasses,
   test,
   until,
@@ -57,9 +59,82 @@ test("two at once are ordered by name, and swapped on demand", async ({ opened: 
   // Without the curves that were drawn: compare the pictures alone.
   const opened = await look(page);
   expect(opened.print).toBe(before.print);
+  await page.getByRole("button", { name: "Add a circle" }).click();
+  await page.getByLabel("Focal length f, px").fill("250");
+  await page.getByLabel("Focal length f, px").press("Enter");
   await page.getByRole("button", { name: "Swap the two frames" }).click();
   await until(page, (state) => state.names[0] === "frame10.png" && state.busy === null);
+  expect(await read(page, (state) => state.camera.focal)).toBe(250);
+  await page.getByRole("button", { name: "Undo" }).click();
+  expect(await read(page, (state) => state.shapes)).toEqual([]);
   expect((await look(page)).print).not.toBe(opened.print);
+});
+
+test("a sequence chosen while own frames are read is the one that opens; they can be used later", async ({
+  opened: page,
+}) => {
+  const files = (await framesOf(page, "squares")).map((buffer) => buffer.toString("base64"));
+  await page.evaluate((files) => {
+    const data = new DataTransfer();
+    for (const [i, text] of files.entries()) {
+      const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+      data.items.add(new File([bytes], `f${i}.png`, { type: "image/png" }));
+    }
+    document.dispatchEvent(new ClipboardEvent("paste", { clipboardData: data }));
+    const scene = document.getElementById("scene") as HTMLSelectElement;
+    scene.value = "figure";
+    scene.dispatchEvent(new Event("change"));
+  }, files);
+  await until(page, (state) => state.slots[1] !== null && state.busy === null);
+  expect((await kept(page)).name).toBe("figure");
+  await page.getByRole("button", { name: "Use them" }).click();
+  await ownAreOpen(page);
+});
+
+test("while a sequence is being opened nothing runs, though a look for curves ends", async ({
+  opened: page,
+}) => {
+  await page.evaluate(() => {
+    const run = document.getElementById("run") as HTMLButtonElement;
+    const scene = document.getElementById("scene") as HTMLSelectElement;
+    const ready: string[] = [];
+    Object.assign(window, { ready });
+    new MutationObserver(
+      () => run.disabled || ready.push((window as unknown as { relievo: State }).relievo.title),
+    ).observe(run, {
+      attributeFilter: ["disabled"],
+    });
+    document.getElementById("find")!.click();
+    scene.value = "flight";
+    scene.dispatchEvent(new Event("change"));
+  });
+  await until(page, ({ title, busy }) => title === "Flight over hills" && busy === null);
+  const ready = await page.evaluate(() => (window as unknown as { ready: string[] }).ready);
+  expect(ready).toEqual(["Flight over hills"]);
+  expect(await read(page, (state) => state.shapes)).toEqual([]);
+});
+
+test("the list of sequences stays at the one chosen last", async ({ opened: page }) => {
+  await page.evaluate(async () => {
+    const scene = document.getElementById("scene") as HTMLSelectElement;
+    const choose = (name: string) => {
+      scene.value = name;
+      scene.dispatchEvent(new Event("change"));
+    };
+    choose("squares");
+    // The first is on its way to the worker by then.
+    await new Promise((next) => setTimeout(next));
+    choose("figure");
+    const shown = new Set<string>();
+    Object.assign(window, { shown });
+    new MutationObserver(() => shown.add(scene.value)).observe(document.body, {
+      childList: true,
+      subtree: true,
+    });
+  });
+  await until(page, ({ title, busy }) => title === "Toy bear" && busy === null);
+  const shown = await page.evaluate(() => [...(window as unknown as { shown: string[] }).shown]);
+  expect(shown).toEqual(["figure"]);
 });
 
 test("frames are dropped on the page", async ({ opened: page }) => {
@@ -177,6 +252,22 @@ test.describe("bad input gets a sentence and changes nothing", () => {
   }
 });
 
+test("of two files at once neither is taken when one is no image", async ({ opened: page }) => {
+  const [one, two] = await framesOf(page, "squares");
+  await first(page).setInputFiles([png("a1.png", one), png("a2.png", two)]);
+  await ownAreOpen(page);
+  const broken = Buffer.from("Once upon a time");
+  for (const [b1, b2, culprit] of [
+    [two, broken, "b2.png"],
+    [broken, one, "b1.png"],
+  ] as const) {
+    await first(page).setInputFiles([png("b1.png", b1), png("b2.png", b2)]);
+    await expect(message(page)).toContainText(culprit, { timeout: PATIENCE });
+    await expect(page.locator("#slots-note")).toContainText("These are your frames");
+    expect(await read(page, (state) => state.names)).toEqual(["a1.png", "a2.png"]);
+  }
+});
+
 test("one frame only is said, kept waiting, and can be discarded", async ({ opened: page }) => {
   const [one] = await framesOf(page, "squares");
   await second(page).setInputFiles(png("late.png", one));
@@ -194,6 +285,7 @@ test("a focal length no camera has is refused and can be corrected", async ({ op
   await expect(message(page)).toContainText("focal length is -5");
   await page.getByRole("button", { name: "Run" }).click();
   await until(page, (state) => !state.running);
+  await expect(page.locator("#status")).toHaveText("Ready");
   expect(await read(page, (state) => state.shapes.length)).toBe(2);
   await field.fill(good);
   await field.press("Enter");
@@ -234,6 +326,18 @@ test("what is wrong with a value stays said when the worker accepts the one befo
   await page.getByRole("button", { name: "Find f" }).click();
   await expect(page.locator("#camera")).toContainText("do not tell f");
   await expect(message(page)).toContainText("between 0 and 180");
+});
+
+test("a focal length typed while one is looked for is kept", async ({ opened: page }) => {
+  await page.evaluate(() => {
+    document.getElementById("find-focal")!.click();
+    const field = document.getElementById("focal") as HTMLInputElement;
+    field.value = "555";
+    field.dispatchEvent(new Event("change"));
+  });
+  await ready(page);
+  await expect(page.getByLabel("Focal length f, px")).toHaveValue("555");
+  expect(await read(page, (state) => state.camera.focal)).toBe(555);
 });
 
 test("the focal length is found where the frames tell it, and kept where they do not", async ({

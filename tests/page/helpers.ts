@@ -89,7 +89,8 @@ export async function chooseView(page: Page, name: string): Promise<void> {
   await page.getByRole("radio", { name, exact: true }).check({ force: true });
   await until(
     page,
-    ({ view, pictured, pictures }) => pictured === view && pictures.every((one) => one !== null),
+    ({ view, pictured, pictures }) =>
+      pictured.split(" ")[0] === view && pictures.every((one) => one !== null),
   );
   await drawn(page);
 }

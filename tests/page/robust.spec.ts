@@ -67,7 +67,7 @@ test("a panic is told with its text; the worker is renewed, frames and curves st
   expect(await read(page, (state) => state.report!.iterations)).toBeGreaterThan(0);
 });
 
-test("a hang can be cancelled", async ({ page }) => {
+test("a hang can be cancelled, even with a focal length that no camera has", async ({ page }) => {
   await sabotage(page, "for (;;) {}");
   await open(page);
   await page.getByRole("button", { name: "Run" }).click();
@@ -75,9 +75,14 @@ test("a hang can be cancelled", async ({ page }) => {
   // Pausing asks a worker that no longer listens; the page itself must still answer.
   await page.getByRole("radio", { name: "Depth", exact: true }).check({ force: true });
   await expect(page.locator("#hint")).toContainText("hatched");
+  const focal = page.getByLabel("Focal length f, px");
+  await focal.fill("0");
+  await focal.press("Enter");
   await page.getByRole("button", { name: "Cancel" }).click();
   await until(page, (state) => !state.running && state.busy === null && !state.started);
   expect(await read(page, (state) => state.shapes.length)).toBe(2);
+  await focal.fill("320");
+  await focal.press("Enter");
   await runPasses(page, 3);
 });
 

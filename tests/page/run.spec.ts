@@ -17,6 +17,8 @@ import {
   until,
 } from "./helpers";
 
+const message = (page: Page) => page.locator("#message");
+
 /** Waits for another pass, or for the end. */
 async function goesOn(page: Page): Promise<void> {
   const then = await passes(page);
@@ -99,8 +101,19 @@ test("where a finer scale begins is marked on the energy and said", async ({ ope
   await expect(page.locator("#status")).toContainText("scale 2/2");
   const plot = page.getByRole("img", { name: "Energy after each pass" });
   await expect(plot).toHaveAccessibleDescription(
-    /on scale 1, from .* on scale 2[.,].*a finer scale begins/,
+    /on scale 1, .* on scale 2[.,].*a finer scale begins/,
   );
+});
+
+test("what is said of the energy is what its line shows", async ({ opened: page }) => {
+  await page.getByRole("button", { name: "Step" }).click();
+  const text = page.locator("#energy-text");
+  await expect(text).toHaveText(/^\S+ after one pass\. /, { timeout: PATIENCE });
+  const [energy] = (await text.textContent())!.split(" ");
+  await page.getByRole("button", { name: "Curve 1", exact: true }).click();
+  await page.keyboard.press("Shift+ArrowRight");
+  await until(page, ({ report }) => report!.energy.total !== report!.history[0]);
+  await expect(text).toHaveText(new RegExp(`^${energy} after one pass\\. `));
 });
 
 test("reset goes back to the drawn curves, and running again starts over", async ({
@@ -128,6 +141,7 @@ test("runs to an end by itself and says which", async ({ opened: page }) => {
     /on scale 2, from .* once curves had settled, from .* once motions were held\./,
   );
   await expect(page.getByRole("button", { name: "Run" })).toBeVisible();
+  await expect(page.getByRole("button", { name: "Step" })).toBeDisabled();
   await expect(page.locator("#announcer")).toContainText(/passes/);
 });
 
@@ -195,12 +209,71 @@ test("a weight can be changed while it runs", async ({ opened: page }) => {
   await expect(page.locator("#message")).toBeHidden();
 });
 
+test("a run can be cancelled while a refused value stands in its field", async ({
+  opened: page,
+}) => {
+  const focal = page.getByLabel("Focal length f, px");
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+  await focal.fill("0");
+  await focal.press("Enter");
+  await expect(message(page)).toContainText("focal length is 0");
+  await page.getByRole("button", { name: "Cancel" }).click();
+  await until(page, (state) => !state.started && state.report?.iterations === 0);
+  await focal.fill("320");
+  await focal.press("Enter");
+  await runPasses(page, 1);
+  await expect(message(page)).toBeHidden();
+  expect(await read(page, (state) => state.shapes.length)).toBe(2);
+});
+
+test("a value put right before the wrong one is refused is the one that holds", async ({
+  opened: page,
+}) => {
+  await runPasses(page, 1);
+  await page.evaluate(() => {
+    const field = document.getElementById("focal") as HTMLInputElement;
+    for (const value of ["0", "500"]) {
+      field.value = value;
+      field.dispatchEvent(new Event("change"));
+    }
+  });
+  // Another focal length takes what was found with it.
+  await until(page, (state) => !state.started && state.report?.iterations === 0);
+  await expect(page.locator("#status")).toHaveText("Ready");
+  await expect(page.locator("#scores-panel")).toBeHidden();
+  await expect(page.getByRole("button", { name: "Reset" })).toBeDisabled();
+  await expect(message(page)).toBeHidden();
+});
+
+test("once it runs it does not seem paused, whatever was still being drawn", async ({
+  opened: page,
+}) => {
+  await page.evaluate(() => {
+    const seen: string[] = [];
+    Object.assign(window, { seen });
+    new MutationObserver(() => seen.push(document.body.dataset["running"]!)).observe(
+      document.body,
+      {
+        attributeFilter: ["data-running"],
+      },
+    );
+    document.getElementById("view-compare")!.click();
+    document.getElementById("run")!.click();
+  });
+  await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+  const seen = await page.evaluate(() => (window as unknown as { seen: string[] }).seen);
+  expect(seen).not.toContain("false");
+});
+
 test("a refused value leaves the run alone, and its sentence goes with it", async ({
   opened: page,
 }) => {
   await page.getByText("Weights and choices").click();
   await page.getByRole("button", { name: "Run" }).click();
   await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+  // Files of one pass would be gone with the next.
+  await expect(page.getByRole("button", { name: "Result files" })).toBeDisabled();
   const epsilon = page.locator("#option-epsilon");
   const good = await epsilon.inputValue();
   await epsilon.fill("99");

@@ -1,5 +1,9 @@
 /** Every view draws a picture, and one of its own. */
 
+import { readFile } from "node:fs/promises";
+
+import type { Page } from "@playwright/test";
+
 import { chooseView, DEEP, drawn, expect, look, read, runPasses, test, until } from "./helpers";
 
 const FLAT = ["Depth", "Motion", "Anaglyph", "Labels", "Confidence", "Occlusion", "Compare"];
@@ -55,6 +59,32 @@ test("the truth, the found and Horn–Schunck stand side by side", async ({ open
   await runPasses(page, 2);
   await chooseView(page, "Compare");
   await expect(page.locator("#captions span")).toHaveText(["Truth", "Found", "Horn–Schunck"]);
+});
+
+test("no picture stands under another's name, nor is taken away under it", async ({
+  opened: page,
+}) => {
+  await chooseView(page, "Compare");
+  const stage = page.locator("#stage");
+  const take = page.getByRole("button", { name: "This view as PNG" });
+  await expect(stage).toHaveAttribute("aria-busy", "false");
+  // Looked at before the worker can have answered.
+  const [busy, unavailable, captions] = await page.evaluate(() => {
+    const what = document.querySelector<HTMLSelectElement>("#setting-compare")!;
+    what.value = "labels";
+    what.dispatchEvent(new Event("change"));
+    const take = document.querySelector<HTMLButtonElement>("#save-view")!;
+    return [
+      document.getElementById("stage")!.ariaBusy,
+      take.disabled,
+      getComputedStyle(document.getElementById("captions")!).visibility,
+    ];
+  });
+  expect([busy, unavailable, captions]).toEqual(["true", true, "hidden"]);
+  await until(page, ({ pictured }) => pictured === "compare labels");
+  await expect(stage).toHaveAttribute("aria-busy", "false");
+  await expect(take).toBeEnabled();
+  await expect(page.locator("#captions span").first()).toBeVisible();
 });
 
 test("the depth slider of a region changes depth, not its outline", async ({ opened: page }) => {
@@ -116,6 +146,40 @@ test("the relief stands, turns by keyboard and mouse, and takes plaster", async 
   await changed("plaster");
   await page.getByRole("slider", { name: "Light" }).fill("300");
   await changed("light");
+});
+
+/** The present view as it is saved. */
+async function saved(page: Page): Promise<Buffer> {
+  const [picture] = await Promise.all([
+    page.waitForEvent("download"),
+    page.getByRole("button", { name: "This view as PNG" }).click(),
+  ]);
+  return readFile(await picture.path());
+}
+
+test("curves that are only drawn are on the picture of their view", async ({ opened: page }) => {
+  const both = await saved(page);
+  await page.getByRole("button", { name: "Delete curve 1" }).click();
+  await drawn(page);
+  expect((await saved(page)).equals(both)).toBe(false);
+});
+
+test("pictures compared keep their names when they are taken away", async ({ opened: page }) => {
+  await chooseView(page, "Compare");
+  const png = (await saved(page)).toString("base64");
+  const [edge, line] = await page.evaluate(async (png) => {
+    const picture = await createImageBitmap(
+      await (await fetch(`data:image/png;base64,${png}`)).blob(),
+    );
+    const context = new OffscreenCanvas(picture.width, picture.height).getContext("2d")!;
+    context.drawImage(picture, 0, 0);
+    return [0, 13].map((y) => {
+      const { data } = context.getImageData(0, y, picture.width, 1);
+      return new Set(new Uint32Array(data.buffer)).size;
+    });
+  }, png);
+  expect(edge, "colours above the names").toBe(1);
+  expect(line, "colours across the names").toBeGreaterThan(1);
 });
 
 test("the view and the results can be taken away", async ({ opened: page }) => {

@@ -91,13 +91,15 @@ async function findFocal(): Promise<void> {
   const phrase = "Looking for the focal length";
   // In an array, since nothing found is an answer, too.
   const answer = await ask(phrase, async (service) => [await service.findFocal(camera)]);
-  if (!answer) return;
+  // A camera that was set meanwhile is what is wanted.
+  if (!answer || store.state.camera !== camera) return;
   const [found = null] = answer;
   const focalFinding = focalFindingOf(found);
-  const focal = found ? Math.round(found.focal) : camera.focal;
-  store.update({ camera: { ...store.state.camera, focal }, focalFinding });
+  store.update({ focalFinding });
   announce(focalFinding);
-  if (found) await configure();
+  if (!found) return;
+  store.update({ camera: { ...camera, focal: Math.round(found.focal) } });
+  await configure();
 }
 
 const GUESSED =

@@ -172,12 +172,16 @@ function inWords({ report }: Readonly<State>): string {
   const part = (value: number) => percent(value / (total || 1), 0);
   const left = `Of what is left, ${part(data)} is misfit of the frames, ${part(smoothness)} depth's roughness, ${part(length)} length of curves.`;
   const begun = breaks(report);
-  const fall = (start: number, end: number | undefined, place: string) => {
-    const last = end === undefined ? total : report.history[end - 1]!;
-    return `from ${number(report.history[start] ?? total)} to ${number(last)}${place}`;
+  // What the passes came to, as the line shows it: curves moved since have an energy of their own.
+  const fall = (start: number, end: number, place: string) => {
+    const passes = report.history.slice(start, end).map((energy) => number(energy));
+    const [first = number(total), ...later] = passes;
+    return later.length > 0 ? `from ${first} to ${later.at(-1)}${place}` : `${first}${place}`;
   };
-  if (begun.length === 0) return `${sentence(fall(0, undefined, ""))} ${left}`;
+  const all = report.history.length;
+  if (begun.length === 0)
+    return `${sentence(fall(0, all, all === 1 ? " after one pass" : ""))} ${left}`;
   const parts = [{ after: 0, place: " on scale 1" }, ...begun];
-  const falls = parts.map(({ after, place }, i) => fall(after, parts[i + 1]?.after, place));
+  const falls = parts.map(({ after, place }, i) => fall(after, parts[i + 1]?.after ?? all, place));
   return `${sentence(falls.join(", "))} ${left} A dashed line is where a finer scale begins, with other pixels, or where curves have settled or motions are held, with other weights: energy can be compared only between two lines.`;
 }

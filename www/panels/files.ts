@@ -2,9 +2,9 @@
 
 import { byId, make } from "../dom";
 import { ask } from "../session";
-import { stagePicture } from "../stage/stage";
+import { stagePicture } from "../stage/snapshot";
 import { store } from "../store";
-import { wantedParams } from "../views";
+import { awaited, wantedParams } from "../views";
 import type { ResultFile } from "../worker/protocol";
 
 const TYPES: Record<string, string> = { png: "image/png", json: "application/json" };
@@ -40,10 +40,16 @@ export function mountFiles(): void {
     save(blob, `relievo-${name}-${view}.png`);
   });
   store.watch(
-    ({ frames, started, busy }) => [frames, started, busy],
-    ({ frames, started, busy }) => {
-      list.disabled = !started || busy !== null;
-      byId<HTMLButtonElement>("save-view").disabled = !frames;
+    ({ started, running, busy }) => [started, running, busy],
+    ({ started, running, busy }) => {
+      // The next pass would take away what this one wrote.
+      list.disabled = !started || running || busy !== null;
+    },
+  );
+  store.watch(
+    ({ frames, view, viewParams, pictured }) => [frames, view, viewParams, pictured],
+    (state) => {
+      byId<HTMLButtonElement>("save-view").disabled = !state.frames || awaited(state);
     },
   );
   // Files of an earlier result would be mistaken for the present one.

@@ -6,7 +6,7 @@
  */
 
 import { byId, icon, make } from "../dom";
-import { ask, open } from "../session";
+import { ask, open, overtaken } from "../session";
 import { store, type Slot, type State } from "../store";
 
 const ACCEPT = "image/png,image/jpeg,image/webp,image/bmp,image/tiff,.pnm,.pgm,.ppm,.pbm,.pam,.tif";
@@ -24,27 +24,32 @@ export function mountFrames(): void {
 
 /** One file goes to `side` or the first empty slot; of several, the first two by name. */
 async function takeAll(files: File[], side: 0 | 1 | null): Promise<void> {
-  if (files.length >= 2) {
-    const [first, second] = files
-      .toSorted((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }))
-      .slice(0, 2);
-    await take(first!, 0, false);
-    await take(second!, 1, true);
-  } else if (files[0]) {
-    await take(files[0], side ?? (store.state.slots[0] ? 1 : 0), true);
+  const chosen = files
+    .toSorted((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }))
+    .slice(0, 2);
+  if (chosen.length === 0) return;
+  const then = store.state;
+  const at = chosen.length === 2 ? 0 : (side ?? (store.state.slots[0] ? 1 : 0));
+  // All are read before any takes its slot: beside one that is no image, its partner would be
+  // paired with an older frame.
+  const taken: Slot[] = [];
+  for (const [i, file] of chosen.entries()) {
+    const slot = await take(file, at + i === 0 ? "first frame" : "second frame");
+    if (!slot) return;
+    taken.push(slot);
   }
+  store.update({
+    slots: store.state.slots.toSpliced(at, taken.length, ...taken) as State["slots"],
+  });
+  // What was chosen while files were read is what is wanted.
+  if (!overtaken(then)) await openBoth();
 }
 
-async function take(file: File, side: 0 | 1, last: boolean): Promise<void> {
-  const name = file.name || (side === 0 ? "first frame" : "second frame");
+async function take(file: File, unnamed: string): Promise<Slot | null> {
+  const name = file.name || unnamed;
   const bytes = new Uint8Array(await file.arrayBuffer());
   const seen = await ask(`Reading ${name}`, (service) => service.preview({ name, bytes }));
-  if (!seen) return;
-  const slot: Slot = { name, bytes, ...seen };
-  const slots: State["slots"] = [...store.state.slots];
-  slots[side] = slot;
-  store.update({ slots });
-  if (last) await openBoth();
+  return seen && { name, bytes, ...seen };
 }
 
 async function openBoth(): Promise<void> {
@@ -83,11 +88,16 @@ function render(state: Readonly<State>): void {
   if (held) document.getElementById(held)?.focus();
   const note = byId("slots-note");
   note.replaceChildren(explain(state, own));
-  if (own) {
-    const discard = make("button", { type: "button", class: "quiet", id: "discard" }, "Discard");
-    discard.addEventListener("click", () => store.update({ slots: [null, null] }));
-    if (!inUse(state)) note.append(" ", discard);
-  }
+  if (!own || inUse(state)) return;
+  const discard = () => store.update({ slots: [null, null] });
+  if (slots[0] && slots[1]) note.append(" ", button("use", "Use them", openBoth));
+  note.append(" ", button("discard", "Discard", discard));
+}
+
+function button(id: string, name: string, press: () => unknown): HTMLElement {
+  const element = make("button", { type: "button", class: "quiet", id }, name);
+  element.addEventListener("click", () => void press());
+  return element;
 }
 
 function explain(state: Readonly<State>, own: boolean): string {

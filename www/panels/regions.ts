@@ -66,10 +66,19 @@ function row(label: number, colour: string): HTMLElement {
   if (label > 0) {
     const drop = make("button", { type: "button", class: "quiet icon-only" }, icon("delete"));
     drop.append(make("span", { class: "visually-hidden" }, `Delete curve ${label}`));
-    drop.addEventListener("click", () => remove(label - 1));
+    drop.addEventListener("click", () => {
+      remove(label - 1);
+      holdPlace(label);
+    });
     head.append(drop);
   }
   return make("li", { class: "region" }, head, motionTable(), scale(label));
+}
+
+/** The row is gone and others are new: the keyboard goes on at the one that moved up, or the last. */
+function holdPlace(label: number): void {
+  const drops = document.querySelectorAll<HTMLElement>("#regions button.icon-only");
+  (drops[Math.min(label, drops.length) - 1] ?? byId("add-circle")).focus();
 }
 
 function motionTable(): HTMLElement {

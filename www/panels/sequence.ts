@@ -10,11 +10,13 @@ const OWN = "";
 export function mountSequence(): void {
   const select = byId<HTMLSelectElement>("scene");
   select.addEventListener("change", () => {
-    if (select.value !== OWN) void openScene(select.value).then(choosePresent);
+    if (select.value !== OWN) void openScene(select.value);
   });
+  // What was chosen last, though it may still be opening: arrow keys go on from there.
   const choosePresent = () => {
-    const { source } = store.state;
-    select.value = source?.kind === "scene" ? source.name : OWN;
+    const { source, opening } = store.state;
+    const shown = opening?.kind === "scene" ? opening : source;
+    select.value = shown?.kind === "scene" ? shown.name : OWN;
   };
   store.watch(
     ({ catalogues, source }) => [catalogues, source],
@@ -28,6 +30,7 @@ export function mountSequence(): void {
       choosePresent();
     },
   );
+  store.watch(({ opening }) => [opening], choosePresent);
   store.watch(
     ({ title, lesson, width, height }) => [title, lesson, width, height],
     ({ title, lesson, width, height }) => {

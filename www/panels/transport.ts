@@ -32,9 +32,14 @@ export function mountTransport(): void {
       main.replaceChildren(icon(running ? "pause" : "run"), name);
       const idle = frames !== null && busy === null;
       main.disabled = !idle;
-      byId<HTMLButtonElement>("step").disabled = !idle || running;
+      const held = document.activeElement;
+      // A solver that has come to its end takes no step before it starts over.
+      const takesSteps = idle && !running && !over;
+      byId<HTMLButtonElement>("step").disabled = !takesSteps;
       byId<HTMLButtonElement>("reset").disabled = !idle || !started;
-      for (const button of parts()) button.disabled = !idle || running;
+      for (const button of parts()) button.disabled = !takesSteps;
+      // A button that is disabled or hidden cannot hold the keyboard's place.
+      if (held?.closest(".transport") && held.matches(":disabled, [hidden]")) main.focus();
       byId("cancel").hidden = !running && busy === null;
       document.body.dataset["running"] = String(running);
     },

@@ -17,6 +17,9 @@ export interface Box {
   height: number;
 }
 
+/** Room for a picture's name above it, in CSS pixels; the stylesheet's line of text is as high. */
+export const CAPTION_HEIGHT = 26;
+
 let present: Pane[] = [];
 
 /** Where the pictures lie that are on the stage now. */

@@ -7,14 +7,13 @@
 
 import { byId, make } from "../dom";
 import { store, type State } from "../store";
-import { asks, captionsOf, viewOf } from "../views";
+import { asks, awaited, captionsOf, viewOf } from "../views";
 import type { Contour } from "../worker/protocol";
 import { SharpCanvas } from "./canvas";
 import { drawShapes } from "./outline";
-import { panes, presentPanes, setPanes, stagePane, type Box, type Pane } from "./place";
+import { CAPTION_HEIGHT, panes, setPanes, stagePane, type Box, type Pane } from "./place";
 import { drawSketch, sketchChanged } from "./tools";
 
-const CAPTION_HEIGHT = 26;
 const FLICKER_MS = 450;
 
 let flickerSecond = false;
@@ -64,25 +63,17 @@ export function mountStage(): void {
     ],
     caption,
   );
-  store.watch(({ showing }) => [showing], flicker);
-}
-
-/** The present view as a PNG, at the resolution of the screen. */
-export async function stagePicture(): Promise<Blob | null> {
-  const { width, height } = store.state;
-  const layout = presentPanes();
-  if (layout.length === 0) return null;
-  const right = Math.max(...layout.map(({ left, scale }) => left + width * scale));
-  const bottom = Math.max(...layout.map(({ top, scale }) => top + height * scale));
-  const left = Math.min(...layout.map((pane) => pane.left));
-  const top = Math.min(...layout.map((pane) => pane.top));
-  const dense = lower.element.width / lower.size.width;
-  const copy = new OffscreenCanvas(
-    Math.round((right - left) * dense),
-    Math.round((bottom - top) * dense),
+  store.watch(
+    ({ frames, view, viewParams, pictured, running }) => [
+      frames,
+      view,
+      viewParams,
+      pictured,
+      running,
+    ],
+    wait,
   );
-  copy.getContext("2d")!.drawImage(lower.element, -left * dense, -top * dense);
-  return copy.convertToBlob({ type: "image/png" });
+  store.watch(({ showing }) => [showing], flicker);
 }
 
 function paintPictures(context: CanvasRenderingContext2D, size: Box): void {
@@ -90,8 +81,8 @@ function paintPictures(context: CanvasRenderingContext2D, size: Box): void {
   const frame = { width: state.width, height: state.height };
   const view = viewOf(state.view);
   const wanted = asks(state).length;
-  // Another view was chosen and its picture is not there yet: the last one stays till then.
-  if (wanted > 0 && state.pictured !== state.view) return;
+  // Till what was chosen is there, the last picture stays, and `wait` dims it.
+  if (awaited(state)) return;
   context.clearRect(0, 0, size.width, size.height);
   if (!state.frames || frame.width === 0 || view.id === "relief") return;
   const captioned = captionsOf(state).length > 0;
@@ -169,6 +160,12 @@ function placeCaptions(layout: Pane[]): void {
     element.style.transform = `translate(${pane.left}px, ${pane.top - CAPTION_HEIGHT}px)`;
     element.style.maxWidth = `${store.state.width * pane.scale}px`;
   }
+}
+
+/** A picture under another's name would be mistaken for it: it dims, and its captions go. */
+function wait(state: Readonly<State>): void {
+  byId("stage").ariaBusy = String(awaited(state));
+  byId("awaited").textContent = state.running ? "Drawn once this pass is done…" : "Being drawn…";
 }
 
 let beat: ReturnType<typeof setInterval> | undefined;

@@ -2,22 +2,30 @@
  * Drawing and moving curves with mouse, pen or finger; the keyboard's way is in `keys.ts`.
  *
  * Circle: press at the centre, pull out the radius. Freehand: draw round the object, let go. Polygon:
- * a click for each corner, the first corner again (or Enter) closes. Select: drag a curve, or its
+ * a click for each corner, the first or the last corner again (or Enter) closes. Select: drag a curve, or its
  * handle to resize it.
  */
 
-import { abandon, add, middle, moved, preview, resized, select, settle } from "../curves";
+import { add, select } from "../curves";
 import { byId } from "../dom";
 import { store } from "../store";
 import type { Point, Shape } from "../worker/protocol";
+import { giveUp, holding, letGo, pull, takeHold, type Hit } from "./grip";
 import { handle, HANDLE, outline } from "./outline";
 import { stagePane, toFrame, toStage, type Pane } from "./place";
 
 /** Least distance between two points of a freehand line, in CSS pixels. */
 const STRIDE = 4;
-/** How near to a curve, handle or first corner a pointer must come, in CSS pixels. */
-const REACH_MOUSE = 9;
-const REACH_FINGER = 22;
+
+/** How steady a pointer is, in CSS pixels. */
+interface Pointer {
+  /** How near to a curve, handle or first corner it must come. */
+  reach: number;
+  /** How far it may wander in what is still a click. */
+  tremor: number;
+}
+const MOUSE: Pointer = { reach: 9, tremor: 4 };
+const FINGER: Pointer = { reach: 22, tremor: 12 };
 
 /** What is being drawn and is no curve yet. */
 export interface Sketch {
@@ -31,9 +39,6 @@ let sketch: Sketch | null = null;
 /** The keyboard's pointer, in pixels of the frame; `null` while the mouse is used. */
 let crosshair: Point | null = null;
 let changed: () => void = () => {};
-
-type Grip = { index: number; start: Point; shape: Shape; resizing: boolean };
-let grip: Grip | null = null;
 
 export const sketchChanged = (listener: () => void): void => {
   changed = listener;
@@ -78,29 +83,25 @@ export function mountTools(): void {
     if (event.button !== 0 || !event.isPrimary || store.state.view !== "curves") return;
     overlay.setPointerCapture(event.pointerId);
     setCrosshair(null);
-    press(at(event), reach(event));
+    press(at(event), event.pointerType === "mouse" ? MOUSE : FINGER);
   });
   overlay.addEventListener("pointermove", (event) => {
     if (!event.isPrimary || store.state.view !== "curves") return;
     const steps = event.getCoalescedEvents?.() ?? [];
     for (const step of steps.length > 0 ? steps : [event]) drag(at(step));
-    if (!grip && !sketch) overlay.style.cursor = cursorAt(at(event));
+    if (!holding() && !sketch) overlay.style.cursor = cursorAt(at(event));
   });
   overlay.addEventListener("pointerup", (event) => event.isPrimary && release());
   overlay.addEventListener("pointercancel", () => {
-    grip = null;
-    abandon();
+    giveUp();
     if (sketch?.tool !== "polygon") setSketch(null);
   });
-  overlay.addEventListener("dblclick", () => sketch?.tool === "polygon" && finish());
-  // A finger on a curve moves the curve; beside it, it scrolls the page.
+  // A finger that draws or has taken hold of a curve (`press` comes first) does not scroll the page.
   overlay.addEventListener(
     "touchstart",
     (event) => {
-      const touch = event.touches[0];
-      if (!touch || event.touches.length > 1 || store.state.view !== "curves") return;
-      const drawing = store.state.tool !== "select";
-      if (drawing || found(at(touch), REACH_FINGER)) event.preventDefault();
+      if (event.touches.length > 1 || store.state.view !== "curves") return;
+      if (store.state.tool !== "select" || holding()) event.preventDefault();
     },
     { passive: false },
   );
@@ -110,36 +111,36 @@ export function mountTools(): void {
   );
 }
 
-function press(place: Point, near: number): void {
-  const { tool } = store.state;
+function press(place: Point, pointer: Pointer): void {
+  const { tool, selected } = store.state;
   const pixel = toFrame(stagePane(), place);
   if (tool === "select") {
-    const hit = found(place, near);
+    const hit = found(place, pointer.reach);
+    // A finger also scrolls: it moves a curve only after having chosen it.
+    const mine = pointer === MOUSE || hit?.index === selected;
     select(hit?.index ?? null);
-    const shape = hit && store.state.shapes[hit.index];
-    grip = shape ? { index: hit.index, start: pixel, shape, resizing: hit.resizing } : null;
+    if (hit && mine) takeHold(hit, place, pointer.tremor);
   } else if (tool === "polygon") {
-    const corners = sketch?.points ?? [];
-    const first = corners[0];
-    if (first && corners.length >= 3 && apart(toStage(stagePane(), first), place) < near) finish();
-    else setSketch({ tool, points: [...corners, pixel], tip: pixel });
+    addCorner(pixel, pointer);
   } else {
     setSketch({ tool, points: [pixel], tip: pixel });
   }
 }
 
+/** The next corner of a polygon; one that is there already, as of a double click, closes it. */
+function addCorner(pixel: Point, { reach, tremor }: Pointer): void {
+  const points = sketch?.points ?? [];
+  const near = (corner: Point | undefined, distance: number) =>
+    corner !== undefined && apart(corner, pixel) * stagePane().scale < distance;
+  const again = near(points.at(-1), tremor);
+  if (points.length >= 3 && (again || near(points[0], reach))) finish();
+  else if (!again) setSketch({ tool: "polygon", points: [...points, pixel], tip: pixel });
+}
+
 function drag(place: Point): void {
-  const pixel = toFrame(stagePane(), place);
-  if (grip) {
-    const { index, start, shape, resizing } = grip;
-    const [mx, my] = middle(shape);
-    const factor =
-      Math.hypot(pixel[0] - mx, pixel[1] - my) / Math.hypot(start[0] - mx, start[1] - my);
-    preview(
-      index,
-      resizing ? resized(shape, factor) : moved(shape, pixel[0] - start[0], pixel[1] - start[1]),
-    );
-  } else if (sketch) {
+  pull(place);
+  if (sketch) {
+    const pixel = toFrame(stagePane(), place);
     const last = sketch.points.at(-1);
     const far = last && apart(toStage(stagePane(), last), place) >= STRIDE;
     const points = sketch.tool === "freehand" && far ? [...sketch.points, pixel] : sketch.points;
@@ -148,16 +149,12 @@ function drag(place: Point): void {
 }
 
 function release(): void {
-  if (grip) {
-    grip = null;
-    settle();
-  } else if (sketch && sketch.tool !== "polygon") {
-    finish();
-  }
+  letGo();
+  if (sketch && sketch.tool !== "polygon") finish();
 }
 
 /** The curve under a place of the stage; the selected one and the latest drawn come first. */
-function found(place: Point, near: number): { index: number; resizing: boolean } | null {
+function found(place: Point, near: number): Hit | null {
   const { shapes, selected } = store.state;
   const pane = stagePane();
   const chosen = selected === null ? undefined : shapes[selected];
@@ -182,13 +179,11 @@ function touches(shape: Shape, pane: Pane, place: Point, near: number): boolean 
 
 function cursorAt(place: Point): string {
   if (store.state.tool !== "select") return "crosshair";
-  const hit = found(place, REACH_MOUSE);
+  const hit = found(place, MOUSE.reach);
   return hit ? (hit.resizing ? "nwse-resize" : "move") : "default";
 }
 
 const apart = (a: Point, b: Point) => Math.hypot(a[0] - b[0], a[1] - b[1]);
-
-const reach = (event: PointerEvent) => (event.pointerType === "mouse" ? REACH_MOUSE : REACH_FINGER);
 
 function at(event: { clientX: number; clientY: number }): Point {
   const box = byId("overlay").getBoundingClientRect();

@@ -7,6 +7,8 @@ import * as Comlink from "comlink";
 
 import type { Failure, Progress, Service } from "./protocol";
 
+export type Remote = Comlink.Remote<Service>;
+
 type Listener = {
   /** Resolves when the progress is on the screen. */
   progress: (progress: Progress) => Promise<void>;
@@ -23,23 +25,35 @@ export class Ended extends Error {
 
 export class Client {
   private worker: Worker | null = null;
-  private service: Comlink.Remote<Service> | null = null;
+  private service: Remote | null = null;
   private abandon: (reason: Error) => void = () => {};
   private ended: Promise<never> = new Promise(() => {});
+  private turn: Promise<unknown> = Promise.resolve();
 
   constructor(private readonly listener: Listener) {
     this.start();
   }
 
   /** One call; rejects with a sentence, or with `Ended` when the worker was replaced meanwhile. */
-  async call<T>(use: (service: Comlink.Remote<Service>) => Promise<T>): Promise<T> {
+  async call<T>(use: (service: Remote) => Promise<T>): Promise<T> {
     return Promise.race([use(this.service!), this.ended]);
+  }
+
+  /**
+   * A call that waits for those made in turn before: each opens a pair or speaks of the one that is open,
+   * and the worker answers others while it opens one.
+   */
+  inTurn<T>(use: (service: Remote) => Promise<T>): Promise<T> {
+    const mine = Promise.race([this.turn, this.ended]).then(() => this.call(use));
+    this.turn = mine.catch(() => {});
+    return mine;
   }
 
   /** Ends the worker, whatever it is doing, and puts up a new one, which knows nothing yet. */
   restart(): void {
     this.worker?.terminate();
     this.abandon(new Ended());
+    this.turn = Promise.resolve();
     this.start();
   }
 

@@ -48,6 +48,8 @@ export class Engine {
   private owned: Owned | null = null;
   private solver: Solver | null = null;
   private setup: Setup | null = null;
+  /** Whether the solver has been at work since it was made or reset. */
+  started = false;
 
   async open(source: Source, keep: Setup | null): Promise<Opened> {
     const owned = take(source);
@@ -62,6 +64,7 @@ export class Engine {
       this.owned = owned;
       this.solver = solver;
       this.setup = setup;
+      this.started = false;
       const { scene } = owned;
       return {
         title: scene?.title ?? "Your own frames",
@@ -91,6 +94,7 @@ export class Engine {
       solver.free();
       this.solver = replacement;
       this.setup = setup;
+      this.started = false;
       return true;
     }
     const options = differs("options");
@@ -120,6 +124,7 @@ export class Engine {
 
   step(part: Part): Status {
     const { solver } = this.present();
+    this.started = true;
     switch (part) {
       case "all":
         return solver.step() as Status;
@@ -138,6 +143,7 @@ export class Engine {
 
   reset(): void {
     this.present().solver.reset();
+    this.started = false;
   }
 
   report(): Report {

@@ -166,6 +166,8 @@ export interface Progress {
   id: number;
   view: string;
   running: boolean;
+  /** Whether the solver has been at work since it was made or reset. */
+  started: boolean;
   report: Report;
   contours: Contour[];
   /** One per requested picture; `null` where the last one sent is still right. */
@@ -250,10 +252,11 @@ export interface Service {
   findFocal(camera: Camera): Promise<FocalLength | null>;
   configure(setup: Setup): Promise<void>;
   look(wanted: Wanted): Promise<void>;
-  /** Runs on, or afresh when it had come to an end. */
-  run(setup: Setup): Promise<void>;
+  /** Runs on, or afresh when it had come to an end. Like `step` and `reset` it takes a `look` along. */
+  run(setup: Setup, wanted: Wanted): Promise<void>;
   pause(): Promise<void>;
-  step(setup: Setup, part: Part): Promise<void>;
-  reset(setup: Setup): Promise<void>;
+  step(setup: Setup, part: Part, wanted: Wanted): Promise<void>;
+  /** Back to the drawn curves; without a setup, to those it has. */
+  reset(setup: Setup | null, wanted: Wanted): Promise<void>;
   files(params: Record<string, unknown>): Promise<ResultFile[]>;
 }

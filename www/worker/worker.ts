@@ -129,6 +129,7 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
       id: wanted.id,
       view: wanted.view,
       running,
+      started: running || engine.started,
       report,
       contours,
       pictures,
@@ -147,6 +148,21 @@ function meshIsDue({ mesh }: Look, iterations: number): boolean {
 /** Curves or weights that change leave the pass count alone but not what there is to see. */
 function configure(setup: Setup): void {
   if (engine.configure(setup)) look.mesh.iterations = -1;
+}
+
+/** Work for the solver, as it is set and looked at now. Where things stand is told even when it is refused. */
+function obey(setup: Setup | null, wanted: Wanted, work: () => void): Promise<void> {
+  return guard(() => {
+    look = looked(wanted);
+    try {
+      if (setup) configure(setup);
+      work();
+    } catch (error) {
+      if (!(error instanceof WebAssembly.RuntimeError)) publish();
+      throw error;
+    }
+    publish();
+  });
 }
 
 const service: Service = {
@@ -186,9 +202,8 @@ const service: Service = {
       publish();
     }),
 
-  run: (setup) =>
-    guard(() => {
-      configure(setup);
+  run: (setup, wanted) =>
+    obey(setup, wanted, () => {
       if (engine.report().status !== "running") engine.reset();
       running = true;
       void loop();
@@ -199,21 +214,16 @@ const service: Service = {
       running = false;
     }),
 
-  step: (setup, part) =>
-    guard(() => {
+  step: (setup, part, wanted) =>
+    obey(setup, wanted, () => {
       running = false;
-      configure(setup);
       engine.step(part);
-      publish();
     }),
 
-  reset: (setup) =>
-    guard(() => {
+  reset: (setup, wanted) =>
+    obey(setup, wanted, () => {
       running = false;
-      configure(setup);
       engine.reset();
-      look = looked(look.wanted);
-      publish();
     }),
 
   files: (params) =>

@@ -1,0 +1,55 @@
+/** A pair that has been opened takes the place of the one before, and of what was found in that. */
+
+import { store, type State } from "./store";
+import type { Opened, Setup, Source } from "./worker/protocol";
+
+/**
+ * Whether two pairs are of the same frames, perhaps the other way round: what was drawn on the one holds for
+ * the other.
+ */
+export function sameFrames(one: Source, other: Source | null): boolean {
+  if (one.kind !== "files" || other?.kind !== "files") return false;
+  const frames = [other.first.bytes, other.second.bytes];
+  return frames.includes(one.first.bytes) && frames.includes(one.second.bytes);
+}
+
+/** With `keep`, curves and camera stay as they are, and so does what can be undone. */
+export function adopt(source: Source, opened: Opened, keep: boolean): void {
+  store.state.frames?.forEach((frame) => frame.close());
+  store.update({
+    source,
+    title: opened.title,
+    lesson: opened.lesson,
+    width: opened.width,
+    height: opened.height,
+    frames: opened.frames,
+    names: opened.names,
+    truth: opened.truth,
+    ...(keep ? {} : drawn(opened.setup)),
+    running: false,
+    started: false,
+    report: null,
+    contours: [],
+    pictures: [],
+    pictured: "",
+    scores: null,
+    scales: [],
+    showing: "first",
+    tool: "select",
+  });
+  // A view that needs the truth makes no sense without.
+  if (!opened.truth && store.state.view === "compare") store.update({ view: "curves" });
+}
+
+/** What a pair brings with it, as if somebody had just drawn it. */
+function drawn({ shapes, camera }: Setup): Partial<State> {
+  return {
+    shapes,
+    camera,
+    focalFinding: null,
+    selected: null,
+    past: [],
+    future: [],
+    finding: null,
+  };
+}
