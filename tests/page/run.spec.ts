@@ -231,11 +231,13 @@ test("a value put right before the wrong one is refused is the one that holds", 
   opened: page,
 }) => {
   await runPasses(page, 1);
-  await page.evaluate(() => {
+  await page.evaluate(async () => {
     const field = document.getElementById("focal") as HTMLInputElement;
     for (const value of ["0", "500"]) {
       field.value = value;
       field.dispatchEvent(new Event("change"));
+      // Time enough for it to be sent, not to be answered.
+      for (let i = 0; i < 20; i++) await Promise.resolve();
     }
   });
   // Another focal length takes what was found with it.
