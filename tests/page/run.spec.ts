@@ -195,6 +195,9 @@ test("the paper's preset is one choice away, also while it runs", async ({ opene
   await expect(page.locator("#energy-text")).not.toContainText("scale");
   await preset.selectOption("best");
   await until(page, ({ report }) => report!.levels === 2);
+  // All has started anew, so that there is nothing to reset.
+  await expect(page.locator("#status")).toHaveText("Ready");
+  await expect(page.getByRole("button", { name: "Reset" })).toBeDisabled();
   await runPasses(page, 1);
   await expect(page.locator("#status")).toContainText("scale 1/2");
 });

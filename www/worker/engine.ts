@@ -99,7 +99,10 @@ export class Engine {
     }
     const options = differs("options");
     if (options) {
+      const passes = this.report().iterations;
       solver.setOptions(JSON.stringify(setup.options));
+      // With another way of solving all starts anew.
+      if (this.report().iterations < passes) this.started = false;
       this.setup = { ...last, options: setup.options };
     }
     const shapes = differs("shapes");
