@@ -121,6 +121,8 @@ export function moved(shape: Shape, dx: number, dy: number): Shape {
 export function resized(shape: Shape, factor: number): Shape {
   if (shape.kind === "circle") return { ...shape, r: Math.max(1, shape.r * factor) };
   const [mx, my] = middle(shape);
+  const largest = Math.max(...extent(shape));
+  factor = Math.max(factor, Math.min(1, 1 / largest));
   const points = shape.points.map(([x, y]): Point => [
     mx + (x - mx) * factor,
     my + (y - my) * factor,

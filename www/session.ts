@@ -26,7 +26,14 @@ export function onMesh(listener: (mesh: MeshData) => void): void {
   meshListener = listener;
 }
 
-const client = new Client({ progress: show, failure: (failure) => failed(failure, true) });
+const client = new Client({
+  progress: show,
+  failure: (failure) => {
+    // That was the answer.
+    answered = asked;
+    failed(failure, true);
+  },
+});
 
 /** Loads the core and opens the first sequence. */
 export async function start(): Promise<void> {
@@ -61,10 +68,11 @@ export function open(source: Source, phrase: string): Promise<boolean> {
   });
 }
 
-/** Whether another pair was asked for since the state was `then`, and was not refused. */
-export function overtaken(then: Readonly<State>): boolean {
-  const known = [then.source, then.opening, null];
-  return !known.includes(store.state.source) || !known.includes(store.state.opening);
+/** Whether a sequence was asked for since the state was `then`, and was not refused. */
+export function overtaken(then: Pick<State, "source" | "opening">): boolean {
+  const { source, opening } = store.state;
+  const since = [source, opening].filter((pair) => pair !== then.source && pair !== then.opening);
+  return since.some((pair) => pair?.kind === "scene");
 }
 
 const setupOf = (state: Readonly<State>): Setup => ({
@@ -100,7 +108,7 @@ export async function run(): Promise<void> {
 
 /** The worker finishes the step it is in; the progress after it says that it has stopped. */
 export async function pause(): Promise<void> {
-  await attempt(null, () => client.call((service) => service.pause()));
+  await attempt(null, () => client.inTurn((service) => service.pause()));
 }
 
 export function step(part: Part): Promise<boolean> {
@@ -116,7 +124,7 @@ export async function reset(): Promise<void> {
 export async function cancel(): Promise<void> {
   // Without the page's settings, which may be what is wrong. A refusal is an answer, too.
   const polite = client
-    .call((service) => service.reset(null, want()))
+    .inTurn((service) => service.reset(null, want()))
     .then(
       () => true,
       (error: Error) => error.name !== "Panic",
@@ -124,7 +132,11 @@ export async function cancel(): Promise<void> {
   const late = new Promise<boolean>((resolve) => setTimeout(() => resolve(false), PATIENCE_MS));
   const answered = await Promise.race([polite, late]);
   store.update({ running: false, started: false });
-  if (!answered) await recover();
+  if (!answered) {
+    await recover(true);
+    // What hung may have been the core's own loading.
+    if (!store.state.catalogues) void start();
+  }
   announce("Cancelled; frames and curves are kept.");
 }
 
@@ -202,7 +214,8 @@ function attempt(phrase: string | null, work: () => Promise<unknown>): Promise<b
     } catch (error) {
       if (!(error instanceof Ended)) {
         const { name, message } = error as Error;
-        failed({ message, panic: name === "Panic" });
+        if (name === "Unloaded") unloaded(message);
+        else failed({ message, panic: name === "Panic" });
       }
       return false;
     }
@@ -220,20 +233,31 @@ function failed({ message, panic }: Failure, stopped = panic): void {
   if (panic) void recover();
 }
 
-let recovering = false;
+/** The next worker loads the core again. */
+function unloaded(reason: string): void {
+  const message = `${sentence(reason)} Check the connection, then try again or reload the page.`;
+  failed({ message, panic: false }, true);
+  void recover();
+}
 
-/** A new worker with the same frames, curves and settings. */
-async function recover(): Promise<void> {
-  if (recovering) return;
-  recovering = true;
+let recovering: Promise<boolean> | null = null;
+
+/** A new worker with the same frames, curves and settings. One that breaks down as well is left until someone cancels. */
+async function recover(byHand = false): Promise<void> {
+  if (recovering && !byHand) return;
   client.restart();
   const reopened = attempt("Starting afresh", () => client.inTurn(reopen));
+  recovering = reopened;
   // Commands that were under way end first, and say what they know of the run.
   await new Promise((next) => setTimeout(next));
-  forgetAsked();
+  // Nothing on its way is wanted any more, nor is anything to be asked for until frames are open again.
+  asked += 1;
   store.update({ running: false, started: false, report: null, contours: [], scores: null });
-  if (await reopened) await look();
-  recovering = false;
+  const open = await reopened;
+  if (recovering !== reopened) return;
+  recovering = null;
+  forgetAsked();
+  if (open) await look();
 }
 
 async function reopen(service: Remote): Promise<void> {
@@ -257,7 +281,7 @@ async function show(progress: Progress): Promise<void> {
   answered = asked;
   const pictures = progress.pictures.map((picture, i) => picture ?? state.pictures[i] ?? null);
   for (const [i, old] of state.pictures.entries()) if (old && pictures[i] !== old) old.close();
-  const finished = state.running && !progress.running;
+  const finished = state.running && !progress.running && progress.started;
   store.update({
     running: progress.running,
     started: progress.started,

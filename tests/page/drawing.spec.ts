@@ -92,6 +92,20 @@ test("a double click sets the last corner of a polygon and closes it", async ({ 
   await expect(page.locator("#regions > li").nth(3)).toContainText("3 corners");
 });
 
+test("Enter closes a polygon whose corners were clicked", async ({ opened: page }) => {
+  await pick(page, "Draw a polygon");
+  for (const [x, y] of [
+    [40, 180],
+    [90, 180],
+    [90, 220],
+    [40, 220],
+  ] as const) {
+    await click(page, x, y);
+  }
+  await page.keyboard.press("Enter");
+  await expect(page.locator("#regions > li").nth(3)).toContainText("4 corners");
+});
+
 test("a curve is moved, resized and deleted by mouse, and all of it undone", async ({
   opened: page,
 }) => {

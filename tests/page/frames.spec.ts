@@ -7,6 +7,7 @@ import { walls } from "../walls.js";
 import {
   expect,
   framesOf,
+  goesOn,
   look,
   PATIENCE,
   plainPng,
@@ -161,7 +162,7 @@ test("frames are dropped on the page", async ({ opened: page }) => {
   await expect(page.locator("#dropzone")).toBeHidden();
 });
 
-test("frames are pasted, one after the other", async ({ opened: page }) => {
+test("frames are pasted, one soon after the other", async ({ opened: page }) => {
   const [one, two] = await framesOf(page, "squares");
   const paste = (buffer: Buffer, name: string) =>
     page.evaluate(
@@ -176,10 +177,28 @@ test("frames are pasted, one after the other", async ({ opened: page }) => {
       { text: buffer.toString("base64"), name },
     );
   await paste(one, "a.png");
-  await until(page, (state) => state.slots[0] !== null);
   await paste(two, "b.png");
   await ownAreOpen(page);
   expect(await read(page, (state) => state.names)).toEqual(["a.png", "b.png"]);
+});
+
+test("a file that has gone since it was chosen is said", async ({ opened: page }) => {
+  await page.evaluate(() => {
+    File.prototype.arrayBuffer = () => Promise.reject(new DOMException("gone", "NotFoundError"));
+  });
+  await first(page).setInputFiles([png("a.png", await plainPng(page, 64, 48, true))]);
+  await expect(message(page)).toContainText("a.png cannot be read");
+  expect(await read(page, (state) => state.slots)).toEqual([null, null]);
+});
+
+test("a pair that is refused leaves the run alone", async ({ opened: page }) => {
+  const files = [await plainPng(page, 64, 48, true), await plainPng(page, 80, 48, true)];
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+  await first(page).setInputFiles(files.map((buffer, i) => png(`f${i}.png`, buffer)));
+  await expect(message(page)).toContainText("differ in size");
+  await goesOn(page);
+  expect(await read(page, (state) => state.running)).toBe(true);
 });
 
 test.describe("bad input gets a sentence and changes nothing", () => {

@@ -64,6 +64,21 @@ export async function runPasses(page: Page, count: number): Promise<void> {
   await pauseRun(page);
 }
 
+/** Waits for another pass, or for the end. */
+export async function goesOn(page: Page): Promise<void> {
+  const then = await passes(page);
+  await page.waitForFunction(
+    (least) => {
+      const { report } = (
+        window as unknown as { relievo: { report: { iterations: number; status: string } } }
+      ).relievo;
+      return report.iterations > least || report.status !== "running";
+    },
+    then,
+    { timeout: PATIENCE },
+  );
+}
+
 /** Pauses, unless it has come to its end by itself. */
 export async function pauseRun(page: Page): Promise<void> {
   // At once, lest the run end in between and the button start it again.

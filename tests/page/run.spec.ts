@@ -6,6 +6,7 @@ import {
   chooseView,
   DEEP,
   expect,
+  goesOn,
   look,
   openScene,
   passes,
@@ -18,21 +19,6 @@ import {
 } from "./helpers";
 
 const message = (page: Page) => page.locator("#message");
-
-/** Waits for another pass, or for the end. */
-async function goesOn(page: Page): Promise<void> {
-  const then = await passes(page);
-  await page.waitForFunction(
-    (least) => {
-      const { report } = (
-        window as unknown as { relievo: { report: { iterations: number; status: string } } }
-      ).relievo;
-      return report.iterations > least || report.status !== "running";
-    },
-    then,
-    { timeout: PATIENCE },
-  );
-}
 
 test("a run makes the energy fall and the curves move on the frame", async ({ opened: page }) => {
   const before = await look(page);
@@ -210,6 +196,21 @@ test("a weight can be changed while it runs", async ({ opened: page }) => {
   await until(page, (state) => state.options["diffusion"] === "isotropic");
   await goesOn(page);
   await expect(page.locator("#message")).toBeHidden();
+});
+
+test("a pause asked for before the run has begun is not lost", async ({ opened: page }) => {
+  // One task, so that nothing is answered in between.
+  await page.evaluate(() => {
+    const focal = document.getElementById("focal") as HTMLInputElement;
+    focal.value = "300";
+    focal.dispatchEvent(new Event("change"));
+    const run = document.getElementById("run") as HTMLButtonElement;
+    run.click();
+    run.click();
+  });
+  await until(page, (state) => !state.running);
+  await page.getByRole("button", { name: "Step" }).click();
+  await until(page, (state) => state.started && !state.running);
 });
 
 test("a run can be cancelled while a refused value stands in its field", async ({

@@ -22,13 +22,23 @@ export function mountFrames(): void {
   });
 }
 
-/** One file goes to `side` or the first empty slot; of several, the first two by name. */
-async function takeAll(files: File[], side: 0 | 1 | null): Promise<void> {
+/** What was on the stage, or about to be, when files were chosen. */
+type Before = Parameters<typeof overtaken>[0];
+
+let taking: Promise<void> = Promise.resolve();
+
+/** One file goes to `side` or the first empty slot; of several, the first two by name. One lot after another. */
+function takeAll(files: File[], side: 0 | 1 | null): Promise<void> {
+  const { source, opening } = store.state;
+  taking = taking.then(() => takeLot(files, side, { source, opening }));
+  return taking;
+}
+
+async function takeLot(files: File[], side: 0 | 1 | null, then: Before): Promise<void> {
   const chosen = files
     .toSorted((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }))
     .slice(0, 2);
   if (chosen.length === 0) return;
-  const then = store.state;
   const at = chosen.length === 2 ? 0 : (side ?? (store.state.slots[0] ? 1 : 0));
   // All are read before any takes its slot: beside one that is no image, its partner would be
   // paired with an older frame.
@@ -41,15 +51,20 @@ async function takeAll(files: File[], side: 0 | 1 | null): Promise<void> {
   store.update({
     slots: store.state.slots.toSpliced(at, taken.length, ...taken) as State["slots"],
   });
-  // What was chosen while files were read is what is wanted.
+  // A sequence chosen while files were read is what is wanted.
   if (!overtaken(then)) await openBoth();
 }
 
 async function take(file: File, unnamed: string): Promise<Slot | null> {
   const name = file.name || unnamed;
-  const bytes = new Uint8Array(await file.arrayBuffer());
-  const seen = await ask(`Reading ${name}`, (service) => service.preview({ name, bytes }));
-  return seen && { name, bytes, ...seen };
+  return ask(`Reading ${name}`, async (service) => {
+    const bytes = new Uint8Array(await file.arrayBuffer().catch(() => gone(name)));
+    return { name, bytes, ...(await service.preview({ name, bytes })) };
+  });
+}
+
+function gone(name: string): never {
+  throw new Error(`${name} cannot be read; it may be a folder, or have been moved or deleted`);
 }
 
 async function openBoth(): Promise<void> {

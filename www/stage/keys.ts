@@ -11,6 +11,7 @@ import { moved, redo, remove, replace, resized, select, undo } from "../curves";
 import { byId } from "../dom";
 import { store } from "../store";
 import type { Point } from "../worker/protocol";
+import { holding } from "./grip";
 import {
   addAtCentre,
   currentCrosshair,
@@ -33,12 +34,15 @@ const GROW = 1.08;
 export function mountKeys(): void {
   byId("overlay").addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || store.state.view !== "curves") return;
+    // A curve in the pointer's hand is not the keyboard's.
+    if (holding()) return;
     const used = store.state.tool === "select" ? editing(event) : drawing(event);
     if (used) event.preventDefault();
   });
   byId("overlay").addEventListener("blur", () => setCrosshair(null));
   document.addEventListener("keydown", (event) => {
-    if (!(event.ctrlKey || event.metaKey) || event.altKey || typing(event.target)) return;
+    if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
+    if (typing(event.target) || holding()) return;
     const key = event.key.toLowerCase();
     if (key === "z" && !event.shiftKey) undo();
     else if ((key === "z" && event.shiftKey) || key === "y") redo();
@@ -113,6 +117,11 @@ function drawing(event: KeyboardEvent): boolean {
     return true;
   }
   if (event.key !== "Enter" && event.key !== " ") return false;
+  if (sketch?.tool === "polygon" && !currentCrosshair()) {
+    // Its corners were set by pointer, so that there is no place to set another.
+    if (sketch.points.length >= 3) finish();
+    return true;
+  }
   if (tool === "circle") {
     if (sketch) finish();
     else setSketch({ tool, points: [here], tip: here });

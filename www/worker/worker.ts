@@ -44,6 +44,11 @@ function describe(error: unknown): Failure {
 async function guard<T>(work: () => T | Promise<T>): Promise<T> {
   try {
     await ready;
+  } catch (error) {
+    const reason = error instanceof Error ? error.message : String(error);
+    throw Object.assign(new Error(`the core cannot be loaded: ${reason}`), { name: "Unloaded" });
+  }
+  try {
     return await work();
   } catch (error) {
     const { message, panic } = describe(error);
@@ -181,8 +186,8 @@ const service: Service = {
 
   open: (source, keep) =>
     guard(async () => {
-      running = false;
       const opened = await engine.open(source, keep);
+      running = false;
       return Comlink.transfer(opened, opened.frames);
     }),
 
