@@ -63,6 +63,8 @@ pub mod frames;
 pub mod grid;
 pub mod horn_schunck;
 pub mod interpretation;
+mod layered;
+mod linalg;
 pub mod motion;
 pub mod occlusion;
 pub mod options;

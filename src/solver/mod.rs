@@ -28,7 +28,7 @@ pub use weights::Weights;
 
 use std::rc::Rc;
 
-use approach::Approach;
+pub(crate) use approach::Approach;
 use history::{History, Stage};
 use layers::Layers;
 use single_scale::SingleScale;
@@ -260,7 +260,8 @@ fn begin(
         DepthMethod::Descent => {
             Box::new(SingleScale::new(pair.clone(), camera, level_sets, options))
         }
-        DepthMethod::Layers => Box::new(Layers::new(pair.clone(), camera, level_sets, options)),
+        DepthMethod::Layers if std::env::var("OLD").is_ok() => Box::new(Layers::new(pair.clone(), camera, level_sets, options)),
+        DepthMethod::Layers => Box::new(crate::layered::Layered::new(pair.clone(), camera, level_sets, options)),
     }
 }
 

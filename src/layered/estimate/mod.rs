@@ -1,0 +1,13 @@
+//! Stage 1 of a scale: motion and relief of every region, on statistics of its pixels.
+
+mod candidates;
+mod normal_equations;
+mod planar;
+mod step;
+mod surface;
+
+pub(crate) use candidates::search;
+pub(crate) use normal_equations::{CUT, NormalEquations, Pose, Support};
+pub(crate) use planar::{Degree, PlanarFlow};
+pub(crate) use step::{Estimator, Free, Outcome, Prior, State, surface_energy, turn};
+pub(crate) use surface::Surface;

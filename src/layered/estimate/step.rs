@@ -1,0 +1,417 @@
+//! Gauss–Newton for a region's motion and surface together.
+//!
+//! ```text
+//! E = Σ c(e)  +  μ Σ (ε s)² g(d / (ε s)) / s²  +  κ Σ s² (ρ − 1)²
+//! ```
+//!
+//! c is the cost of a residual (`normal_equations.rs`), d the second differences of ρ at control points s pixels apart,
+//! g that of (11), 2√(1+r²) − 2, or of (12), r²: planes cost nothing. The surface is eliminated from the normal equations
+//! (a banded Cholesky factor, Schur complement), which leaves five numbers for the motion.
+//!
+//! Scale: mean ρ is 1. The part m of a step that changes the mean goes to T, T(1 + m) + δT, and only the rest to ρ;
+//! with |T| held instead, small regions end far off.
+//!
+//! A step that raises E is taken back, and ends the iteration.
+
+use glam::{DMat3, DQuat, DVec3};
+
+use super::super::scale::Scale;
+use super::normal_equations::{NormalEquations, Pose, Support};
+use super::surface::{RHO, Surface};
+use crate::linalg::{Banded, solve_positive};
+use crate::options::Diffusion;
+
+/// Pull of ρ towards 1 where nothing is seen, in variances of the residual for a pixel.
+const PULL: f32 = 1e-4;
+/// Pull of δT towards 0, in variances of the residual: a region may show nothing of it.
+const DAMPING: f64 = 1.0;
+/// Longest δT in a step, as a share of |T|.
+const LONGEST: f64 = 0.5;
+
+/// What is estimated of a region.
+#[derive(Clone, Debug)]
+pub(crate) struct State {
+    pub translation: DVec3,
+    pub rotation: DMat3,
+    pub surface: Surface,
+}
+
+/// What may change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Free {
+    /// ρ alone.
+    Depth,
+    /// T and ρ.
+    Translation,
+    /// ω alone.
+    Rotation,
+    /// T, ω and ρ.
+    Full,
+}
+
+/// What is charged for curvature.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prior {
+    /// μ, grey levels²·px².
+    pub mu: f64,
+    pub diffusion: Diffusion,
+    /// ε of g(r/ε), change of slope per control point, 1/px.
+    pub epsilon: f64,
+}
+
+/// What a step leaves.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Outcome {
+    /// E, grey levels².
+    pub energy: f64,
+    /// Σ c(e), grey levels².
+    pub data: f64,
+    pub pixels: usize,
+    /// σ of the residuals, grey levels.
+    pub spread: f32,
+    /// ωᵀ C⁻¹ ω, C the covariance of ω: what speaks for a rotation.
+    pub wald: f64,
+}
+
+/// Solves for steps; memory is used again.
+#[derive(Default)]
+pub(crate) struct Estimator {
+    band: Banded,
+    /// For each control point: the columns of the five motions, and the gradient.
+    cross: Vec<[f32; 6]>,
+    solved: Vec<[f32; 6]>,
+    seen: Vec<f32>,
+}
+
+impl State {
+    /// Nothing moves; a flat surface.
+    pub fn still(surface: Surface) -> Self {
+        Self {
+            translation: DVec3::ZERO,
+            rotation: DMat3::IDENTITY,
+            surface,
+        }
+    }
+
+    /// As the pixel loops want it.
+    pub fn pose(&self) -> Pose {
+        let length = self.translation.length();
+        let (b, c) = if length > 0.0 {
+            let (b, c) = (self.translation / length).any_orthonormal_pair();
+            (b * length, c * length)
+        } else {
+            (DVec3::ZERO, DVec3::ZERO)
+        };
+        Pose {
+            rotation: self.rotation.transpose().to_cols_array_2d().map(|row| row.map(|v| v as f32)),
+            translation: self.translation.to_array().map(|v| v as f32),
+            tangent: [b, c].map(|v| v.to_array().map(|v| v as f32)),
+        }
+    }
+
+    /// ω, radians per frame.
+    pub fn omega(&self) -> DVec3 {
+        DQuat::from_mat3(&self.rotation).to_scaled_axis()
+    }
+}
+
+/// The matrix that turns by ω.
+pub(crate) fn turn(omega: DVec3) -> DMat3 {
+    DMat3::from_quat(DQuat::from_scaled_axis(omega))
+}
+
+impl Estimator {
+    /// Takes up to `steps` steps. `equations` are those of `state` where `fresh`, and are those of what is left in the end.
+    #[expect(clippy::too_many_arguments, reason = "a problem, its data and its memory")]
+    pub fn improve(
+        &mut self,
+        scale: &Scale,
+        level: usize,
+        support: Support,
+        state: &mut State,
+        free: Free,
+        prior: &Prior,
+        sigma: f32,
+        steps: usize,
+        equations: &mut NormalEquations,
+        fresh: bool,
+    ) -> Outcome {
+        if !fresh {
+            equations.gather(scale, level, support, &state.pose(), &state.surface, sigma, true);
+        }
+        let mut outcome = self.outcome(equations, state, prior, sigma);
+        for _ in 0..steps {
+            let before = state.clone();
+            let wald = self.step(equations, state, free, prior, sigma);
+            equations.gather(scale, level, support, &state.pose(), &state.surface, sigma, true);
+            let mut after = self.outcome(equations, state, prior, sigma);
+            after.wald = wald;
+            if !(after.energy <= outcome.energy) {
+                *state = before;
+                equations.gather(scale, level, support, &state.pose(), &state.surface, sigma, true);
+                outcome.wald = wald;
+                break;
+            }
+            outcome = after;
+        }
+        outcome
+    }
+
+    fn outcome(&self, equations: &NormalEquations, state: &State, prior: &Prior, sigma: f32) -> Outcome {
+        Outcome {
+            energy: equations.cost + surface_energy(&state.surface, prior, sigma),
+            data: equations.cost,
+            pixels: equations.pixels,
+            spread: equations.spread,
+            wald: 0.0,
+        }
+    }
+
+    /// One step; what speaks for a rotation before it, where all is free.
+    fn step(
+        &mut self,
+        equations: &NormalEquations,
+        state: &mut State,
+        free: Free,
+        prior: &Prior,
+        sigma: f32,
+    ) -> f64 {
+        let variance = sigma * sigma;
+        let moves_depth = free != Free::Rotation;
+        if moves_depth {
+            self.assemble(equations, &state.surface, prior, variance);
+            self.band.factorise();
+            self.solved.clear();
+            self.solved.extend_from_slice(&self.cross);
+            self.band.solve(&mut self.solved);
+        }
+        let mut a = equations.motion;
+        for i in 0..6 {
+            for j in 0..i {
+                a[i][j] = a[j][i];
+            }
+        }
+        if moves_depth {
+            for (cross, solved) in self.cross.iter().zip(&self.solved) {
+                for i in 0..6 {
+                    for j in 0..6 {
+                        a[i][j] -= f64::from(cross[i]) * f64::from(solved[j]);
+                    }
+                }
+            }
+        }
+        let wald = match free {
+            Free::Full => wald(&a, state.omega()) / f64::from(variance),
+            _ => 0.0,
+        };
+        let delta = motion_step(&a, &equations.motion, free, f64::from(variance));
+        self.apply(state, delta, moves_depth);
+        wald
+    }
+
+    /// The band matrix and the right-hand sides.
+    fn assemble(&mut self, equations: &NormalEquations, surface: &Surface, prior: &Prior, variance: f32) {
+        let nodes = surface.rho.len();
+        self.band.clear(nodes, surface.bandwidth());
+        self.cross.clear();
+        self.cross.resize(nodes, [0.0; 6]);
+        self.seen.clear();
+        let rows = surface.rows - 1;
+        for (n, cell) in equations.cells.iter().enumerate() {
+            self.seen.push(cell.square[0] + cell.square[4] + cell.square[8]);
+            let corners = corners(surface, n / rows, n % rows);
+            for p in 0..4 {
+                for q in 0..=p {
+                    let pair = 3 * ((p >> 1) + (q >> 1)) + (p & 1) + (q & 1);
+                    self.band.add(corners[p], corners[q], cell.square[pair]);
+                }
+                for m in 0..6 {
+                    self.cross[corners[p]][m] += cell.cross[p][m];
+                }
+            }
+        }
+        let band = &mut self.band;
+        let cross = &mut self.cross;
+        for_each_curvature(surface, |nodes, factors, share| {
+            let d: f32 = nodes.iter().zip(factors).map(|(&n, f)| f * surface.rho[n]).sum();
+            let weight = share * curvature_weight(d, surface.spacing, prior);
+            for (p, &node) in nodes.iter().enumerate() {
+                for (q, &other) in nodes[..=p].iter().enumerate() {
+                    band.add(node, other, weight * factors[p] * factors[q]);
+                }
+                cross[node][5] += weight * d * factors[p];
+            }
+        });
+        let pull = pull(surface, variance);
+        for (n, cross) in cross.iter_mut().enumerate() {
+            band.stiffen(n, 1e-5, pull + 1e-3 * variance);
+            cross[5] += pull * (surface.rho[n] - 1.0);
+        }
+    }
+
+    /// Applies a step of the motion, and the surface's answer to it.
+    fn apply(&mut self, state: &mut State, delta: [f64; 5], moves_depth: bool) {
+        let pose = state.pose();
+        let tangent = pose.tangent.map(|b| DVec3::from_array(b.map(f64::from)));
+        let shift = tangent[0] * delta[0] + tangent[1] * delta[1];
+        if !moves_depth {
+            state.rotation = turn(DVec3::new(delta[2], delta[3], delta[4])) * state.rotation;
+            return;
+        }
+        for solved in &mut self.solved {
+            let mut change = solved[5];
+            for (d, s) in delta.iter().zip(*solved) {
+                change += *d as f32 * s;
+            }
+            solved[5] = -change;
+        }
+        let surface = &state.surface;
+        let mean = self.mean(surface, |n| self.solved[n][5]);
+        let grown = f64::from(mean.clamp(-0.7, 2.0));
+        let old = state.translation;
+        let new = old * (1.0 + grown) + shift;
+        let share = (old.dot(new) / new.length_squared().max(1e-20)).clamp(-1.0, 3.0) as f32;
+        for (rho, solved) in state.surface.rho.iter_mut().zip(&self.solved) {
+            *rho = (*rho + share * (solved[5] - mean * *rho)).clamp(RHO[0], RHO[1]);
+        }
+        state.translation = new;
+        state.rotation = turn(DVec3::new(delta[2], delta[3], delta[4])) * state.rotation;
+        let mean = self.mean(&state.surface, |n| state.surface.rho[n]);
+        if mean > 1e-3 {
+            state.surface.rho.iter_mut().for_each(|rho| *rho /= mean);
+            state.translation *= f64::from(mean);
+        }
+    }
+
+    /// Mean over the cells in which something is seen.
+    fn mean(&self, surface: &Surface, value: impl Fn(usize) -> f32) -> f32 {
+        let rows = surface.rows - 1;
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (n, _) in self.seen.iter().enumerate().filter(|(_, s)| **s > 0.0) {
+            sum += corners(surface, n / rows, n % rows).map(&value).iter().sum::<f32>();
+            count += 4.0;
+        }
+        if count > 0.0 { sum / count } else { 1.0 }
+    }
+
+    /// Variance of ρ over the cells in which something was seen: how deep the relief is.
+    pub fn relief(&self, surface: &Surface) -> f64 {
+        let mean = self.mean(surface, |n| surface.rho[n]);
+        let square = self.mean(surface, |n| (surface.rho[n] - mean).powi(2));
+        f64::from(square / (mean * mean).max(1e-6))
+    }
+}
+
+/// The control points at the corners of a cell, by column, then row.
+fn corners(surface: &Surface, column: usize, row: usize) -> [usize; 4] {
+    [
+        surface.node(column, row),
+        surface.node(column, row + 1),
+        surface.node(column + 1, row),
+        surface.node(column + 1, row + 1),
+    ]
+}
+
+/// Solves for the motions that are free; nothing where the data leave them open.
+fn motion_step(reduced: &[[f64; 6]; 6], full: &[[f64; 6]; 6], free: Free, variance: f64) -> [f64; 5] {
+    let is_free = |i: usize| match free {
+        Free::Depth => false,
+        Free::Translation => i < 2,
+        Free::Rotation => i >= 2,
+        Free::Full => true,
+    };
+    let mut a = [[0.0; 5]; 5];
+    let mut b = [0.0; 5];
+    for i in 0..5 {
+        if !is_free(i) {
+            a[i][i] = 1.0;
+            continue;
+        }
+        for j in (0..5).filter(|&j| is_free(j)) {
+            a[i][j] = reduced[i][j];
+        }
+        a[i][i] += 1e-6 * full[i][i] + 1e-9 + if i < 2 { DAMPING * variance } else { 0.0 };
+        b[i] = -reduced[i][5];
+    }
+    let step = solve_positive(&a, &b).unwrap_or_default();
+    let length = step[0].hypot(step[1]);
+    step.map(|d| d * (LONGEST / length).min(1.0))
+}
+
+/// ωᵀ S ω, S the Schur complement of ω with T and the surface eliminated.
+fn wald(a: &[[f64; 6]; 6], omega: DVec3) -> f64 {
+    let det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    if det.abs() < 1e-300 {
+        return 0.0;
+    }
+    let inverse = [
+        [a[1][1] / det, -a[0][1] / det],
+        [-a[1][0] / det, a[0][0] / det],
+    ];
+    let w = omega.to_array();
+    let mut sum = 0.0;
+    for i in 0..3 {
+        for j in 0..3 {
+            let mut s = a[2 + i][2 + j];
+            for c in 0..2 {
+                for d in 0..2 {
+                    s -= a[2 + i][c] * inverse[c][d] * a[2 + j][d];
+                }
+            }
+            sum += s * w[i] * w[j];
+        }
+    }
+    sum
+}
+
+fn pull(surface: &Surface, variance: f32) -> f32 {
+    PULL * variance * (surface.spacing * surface.spacing) as f32
+}
+
+/// What curvature and distance from 1 cost, grey levels².
+pub(crate) fn surface_energy(surface: &Surface, prior: &Prior, sigma: f32) -> f64 {
+    let s = surface.spacing as f32;
+    let edge = prior.epsilon as f32 * s;
+    let mut sum = 0.0;
+    for_each_curvature(surface, |nodes, factors, share| {
+        let d: f32 = nodes.iter().zip(factors).map(|(&n, f)| f * surface.rho[n]).sum();
+        let square = match prior.diffusion {
+            Diffusion::Isotropic => d * d,
+            Diffusion::Anisotropic => 2.0 * edge * edge * ((1.0 + (d / edge).powi(2)).sqrt() - 1.0),
+        };
+        sum += f64::from(share * square);
+    });
+    let pull = pull(surface, sigma * sigma);
+    let away: f32 = surface.rho.iter().map(|rho| (rho - 1.0).powi(2)).sum();
+    prior.mu / f64::from(s * s) * sum + f64::from(pull * away)
+}
+
+/// Half the derivative of what a second difference costs, over it.
+fn curvature_weight(d: f32, spacing: usize, prior: &Prior) -> f32 {
+    let s = spacing as f32;
+    let mu = prior.mu as f32 / (s * s);
+    match prior.diffusion {
+        Diffusion::Isotropic => mu,
+        Diffusion::Anisotropic => mu / (1.0 + (d / (prior.epsilon as f32 * s)).powi(2)).sqrt(),
+    }
+}
+
+/// Calls with the control points, factors and share of each second difference: ρ_xx, ρ_yy and, twice, ρ_xy.
+fn for_each_curvature(surface: &Surface, mut each: impl FnMut(&[usize], &[f32], f32)) {
+    let node = |i, j| surface.node(i, j);
+    for i in 0..surface.columns {
+        for j in 0..surface.rows {
+            if i > 0 && i + 1 < surface.columns {
+                let three = [node(i - 1, j), node(i, j), node(i + 1, j)];
+                each(&three, &[1.0, -2.0, 1.0], 1.0);
+            }
+            if j > 0 && j + 1 < surface.rows {
+                let three = [node(i, j - 1), node(i, j), node(i, j + 1)];
+                each(&three, &[1.0, -2.0, 1.0], 1.0);
+            }
+            if i + 1 < surface.columns && j + 1 < surface.rows {
+                each(&corners(surface, i, j), &[1.0, -1.0, -1.0, 1.0], 2.0);
+            }
+        }
+    }
+}

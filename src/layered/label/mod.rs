@@ -1,0 +1,9 @@
+//! Stage 2 of a scale: which region each pixel belongs to.
+
+mod data_cost;
+mod occlusion;
+mod partition;
+
+pub(crate) use data_cost::{rigid_cost, planar_cost, saturation};
+pub(crate) use occlusion::{Hidden, cover};
+pub(crate) use partition::{LENGTH_OF_PULL, box_blur, outline_energy, partition};

@@ -1,0 +1,9 @@
+//! Coarse to fine, one layer a region.
+
+mod estimate;
+mod label;
+mod region;
+mod scale;
+mod solver;
+
+pub(crate) use solver::Layered;

@@ -1,0 +1,558 @@
+//! The one visible loop: for each scale estimate, label, refine.
+
+use std::rc::Rc;
+
+use crate::camera::{Camera, RigidMotion};
+use crate::curves;
+use crate::depth;
+use crate::energy::Energy;
+use crate::frames::{FramePair, Lighting};
+use crate::grid::Grid;
+use crate::interpretation::{Flow, Interpretation};
+use crate::motion::Kind;
+use crate::options::{Diffusion, Options};
+use crate::solver::{Approach, Weights};
+use crate::window::Window;
+
+use super::estimate::{self, Estimator, Free, Outcome, PlanarFlow, Prior, State, Support, Surface};
+use super::label;
+use super::region::Region;
+use super::scale::{Scale, pyramid};
+
+/// Rounds of planar fits and labels before depth is looked for.
+const PLANAR_ROUNDS: usize = 6;
+const LEAST_SIGMA: f32 = 0.4;
+const MU_MOTION: f64 = 1e5;
+const MU_DEPTH: f64 = 3e6;
+const EPSILON: f64 = 1e-3;
+const BETA: f32 = 1.0;
+const RELIEF: f64 = 100.0;
+const MARGIN: usize = 16;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    Planar(usize),
+    Search,
+    Rigid(usize),
+    Done,
+}
+
+pub(crate) struct Layered {
+    pair: Rc<FramePair>,
+    scales: Vec<Scale>,
+    level: usize,
+    base: usize,
+    phase: Phase,
+    labels: Grid<u8>,
+    regions: Vec<Region>,
+    sigma: f32,
+    estimator: Estimator,
+    costs: Vec<Grid<f32>>,
+    pulls: Vec<Grid<f32>>,
+    spare: Grid<f32>,
+    energy: Energy,
+    changed: f64,
+}
+
+fn par(name: &str, default: f64) -> f64 {
+    std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(default)
+}
+
+impl Layered {
+    pub fn new(pair: Rc<FramePair>, camera: Camera, level_sets: Vec<Grid<f32>>, options: &Options) -> Self {
+        let lighting = if options.lighting {
+            Lighting::between(&pair.first().grey, &pair.second().grey)
+        } else {
+            Lighting::default()
+        };
+        let scales = pyramid(&pair, camera, 0.7, lighting);
+        let base = scales.iter().position(|s| s.width.min(s.height) <= 150).unwrap_or(scales.len() - 1);
+        let mut layered = Self {
+            pair,
+            level: base,
+            base,
+            phase: Phase::Planar(0),
+            labels: Grid::new(1, 1, 0),
+            regions: Vec::new(),
+            sigma: 10.0,
+            estimator: Estimator::default(),
+            costs: Vec::new(),
+            pulls: Vec::new(),
+            spare: Grid::new(1, 1, 0.0),
+            energy: Energy::default(),
+            changed: 1.0,
+            scales,
+        };
+        layered.place(level_sets);
+        layered
+    }
+
+    fn place(&mut self, level_sets: Vec<Grid<f32>>) {
+        self.level = self.base;
+        let count = level_sets.len() + 1;
+        self.phase = if count > 1 { Phase::Planar(0) } else { Phase::Planar(PLANAR_ROUNDS - 1) };
+        let (fw, fh) = (self.pair.width(), self.pair.height());
+        let full = curves::labels(&level_sets, fw, fh);
+        let (w, h) = (self.scales[self.base].width, self.scales[self.base].height);
+        let half = (1 << self.base) / 2;
+        self.labels = Grid::from_fn(w, h, |x, y| full[((x << self.base) + half, (y << self.base) + half)]);
+        let spacing = self.spacing();
+        let whole = Window::whole(fw, fh);
+        self.regions = (0..count).map(|_| Region::new(Surface::flat(spacing, &whole))).collect();
+        self.fit_memory();
+        self.find_windows();
+    }
+
+    fn spacing(&self) -> usize {
+        8 << self.base.saturating_sub(1)
+    }
+
+    fn fit_memory(&mut self) {
+        let (w, h) = (self.here().width, self.here().height);
+        let count = self.regions.len();
+        self.costs = vec![Grid::new(w, h, 0.0); count];
+        self.pulls = vec![Grid::new(w, h, 0.0); count];
+        self.spare = Grid::new(w, h, 0.0);
+    }
+
+    fn here(&self) -> &Scale {
+        &self.scales[self.level]
+    }
+
+    fn find_windows(&mut self) {
+        let (w, h) = (self.labels.width(), self.labels.height());
+        for (k, region) in self.regions.iter_mut().enumerate() {
+            let data = self.labels.data();
+            region.window = Window::around(w, h, 0, |i| usize::from(data[i]) == k);
+            region.fresh = false;
+        }
+    }
+
+    /// The pixels of region k without a rim.
+    fn support_labels(&self) -> Grid<u8> {
+        let rim = par("RIM", 1.0) as usize;
+        let mut out = self.labels.clone();
+        if self.level > 0 && par("RIMALL", 0.0) == 0.0 {
+            return out;
+        }
+        let (w, h) = (out.width(), out.height());
+        for _ in 0..rim {
+            let old = out.clone();
+            for y in 0..h {
+                for x in 0..w {
+                    let c = old[(x, y)];
+                    if (x > 0 && old[(x - 1, y)] != c)
+                        || (x + 1 < w && old[(x + 1, y)] != c)
+                        || (y > 0 && old[(x, y - 1)] != c)
+                        || (y + 1 < h && old[(x, y + 1)] != c)
+                    {
+                        out[(x, y)] = 255;
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    fn prior(&self, weight: f64, options: &Options) -> Prior {
+        let size = (self.pair.width() * self.pair.height()) as f64 / (320.0 * 240.0);
+        let sigma = f64::from(self.sigma);
+        Prior {
+            mu: weight * size * sigma * sigma,
+            diffusion: options.diffusion,
+            epsilon: par("EPS", EPSILON),
+        }
+    }
+
+    fn planar_motions(&mut self, round: usize) {
+        let labels = self.labels.clone();
+        let coarse = (self.level + 1).min(self.scales.len() - 1);
+        let coarser = coarsened(&labels, coarse - self.level);
+        let coarsest = (self.level + 1).min(self.scales.len() - 1);
+        let coarse_labels = coarsened(&labels, coarsest - self.level);
+        for (k, region) in self.regions.iter_mut().enumerate() {
+            let Some(window) = region.window else { continue };
+            let whole = |labels: &Grid<u8>| Window::around(labels.width(), labels.height(), 0, |i| usize::from(labels.data()[i]) == k);
+            if round == 0 || self.phase == Phase::Planar(PLANAR_ROUNDS - 1) && region.flow.sigma == 0.0 {
+                if let Some(window) = whole(&coarse_labels) {
+                    let support = Support { labels: &coarse_labels, label: k as u8, window };
+                    region.flow = PlanarFlow::search(&self.scales[coarsest], &support);
+                }
+                if let Some(window) = whole(&coarser) {
+                    let support = Support { labels: &coarser, label: k as u8, window };
+                    region.flow.fit(&self.scales[coarse], &support, estimate::Degree::Shift, 3);
+                    region.flow.fit(&self.scales[coarse], &support, estimate::Degree::Affine, 4);
+                }
+            }
+            let support = Support { labels: &labels, label: k as u8, window };
+            let degree = if round < 3 && k > 0 { estimate::Degree::Affine } else { estimate::Degree::Plane };
+            region.flow.fit(&self.scales[self.level], &support, degree, 3);
+        }
+    }
+
+    fn search_motions(&mut self, options: &Options) {
+        let labels = self.support_labels();
+        let verbose = par("V", 0.0) > 0.0;
+        for k in 0..self.regions.len() {
+            let Some(window) = self.regions[k].window else { continue };
+            let scale = &self.scales[self.level];
+            let support = Support { labels: &labels, label: k as u8, window };
+            let flow = self.regions[k].flow;
+            let sigma = flow.sigma.max(0.7);
+            let found = estimate::search(scale, &support, &flow, par("NC", 5.0) as usize);
+            let pixels = labels.data().iter().filter(|&&l| usize::from(l) == k).count();
+            // A large region shows enough at the next coarser scale.
+            let up = usize::from(pixels > 8000 && self.level + 1 < self.scales.len());
+            let level = self.level + up;
+            let coarse = coarsened(&labels, up);
+            let Some(cw) = Window::around(coarse.width(), coarse.height(), 0, |i| usize::from(coarse.data()[i]) == k) else { continue };
+            let csup = Support { labels: &coarse, label: k as u8, window: cw };
+            let full = self.full_window(window);
+            let size = (self.pair.width() * self.pair.height()) as f64 / (320.0 * 240.0);
+            let prior = Prior { mu: par("CMU", 1e5) * size * f64::from(sigma * sigma), diffusion: options.diffusion, epsilon: par("EPS", EPSILON) };
+            let mut pool: Vec<(f64, State, Outcome)> = Vec::new();
+            let scale = &self.scales[level];
+            let steps = par("I0", 5.0) as usize;
+            let spacing = self.regions[k].state.surface.spacing;
+            let equations = &mut self.regions[k].equations;
+            let estimator = &mut self.estimator;
+            let mut run = |mut state: State, fresh_depth: bool, pool: &mut Vec<(f64, State, Outcome)>| {
+                if fresh_depth {
+                    estimator.improve(scale, level, csup, &mut state, Free::Depth, &prior, sigma, 1, equations, false);
+                }
+                let outcome = estimator.improve(scale, level, csup, &mut state, Free::Full, &prior, sigma, steps, equations, false);
+                let relief = estimator.relief(&state.surface);
+                let score = outcome.energy / f64::from(sigma * sigma) + RELIEF * relief;
+                if verbose {
+                    eprintln!("  cand k{k} E {:.1} relief {:.4} score {:.1} T {:?} w {:?}", outcome.energy / f64::from(sigma * sigma), relief, score, state.translation.normalize_or_zero(), state.omega());
+                }
+                pool.push((score, state, outcome));
+            };
+            for candidate in &found {
+                let mut state = State::still(Surface::flat(2 * spacing, &full));
+                state.translation = candidate.translation;
+                state.rotation = candidate.rotation;
+                run(state, true, &mut pool);
+            }
+            pool.sort_by(|a, b| a.0.total_cmp(&b.0));
+            if let Some(best) = pool.first() {
+                let mut mirror = best.1.clone();
+                let t = best.1.translation;
+                let w = best.1.omega();
+                mirror.translation = glam::DVec3::new(-t.x, -t.y, t.z);
+                mirror.rotation = estimate::turn(glam::DVec3::new(w.x - 2.0 * t.y, w.y + 2.0 * t.x, w.z));
+                mirror.surface.rho.iter_mut().for_each(|r| *r = (2.0 - *r).max(0.2));
+                run(mirror, false, &mut pool);
+                pool.sort_by(|a, b| a.0.total_cmp(&b.0));
+            }
+            if let Some((_, state, _)) = pool.into_iter().next() {
+                self.regions[k].state = state;
+                self.regions[k].fresh = false;
+            }
+        }
+    }
+
+    fn full_window(&self, window: Window) -> Window {
+        let (w, h) = (self.pair.width(), self.pair.height());
+        let l = self.level;
+        let left = (window.left << l).saturating_sub(MARGIN);
+        let top = (window.top << l).saturating_sub(MARGIN);
+        let right = (((window.left + window.width) << l) + MARGIN).min(w);
+        let bottom = (((window.top + window.height) << l) + MARGIN).min(h);
+        Window { left, top, width: right - left, height: bottom - top }
+    }
+
+    fn rigid_motions(&mut self, options: &Options, steps: usize) {
+        let labels = self.support_labels();
+        let prior = self.prior(par("MMU", MU_MOTION), options);
+        for k in 0..self.regions.len() {
+            let Some(window) = self.regions[k].window else { continue };
+            let region = &mut self.regions[k];
+            let free = match region.model {
+                Kind::Still => continue,
+                Kind::Rotation => Free::Rotation,
+                Kind::Translation => Free::Translation,
+                Kind::Full => Free::Full,
+            };
+            let support = Support { labels: &labels, label: k as u8, window };
+            region.outcome = self.estimator.improve(&self.scales[self.level], self.level, support, &mut region.state, free, &prior, self.sigma, steps, &mut region.equations, region.fresh);
+            region.fresh = true;
+        }
+    }
+
+    fn rigid_depth(&mut self, options: &Options, steps: usize) {
+        let labels = self.support_labels();
+        let prior = self.prior(par("DMU", MU_DEPTH), options);
+        for k in 0..self.regions.len() {
+            let Some(window) = self.regions[k].window else { continue };
+            let region = &mut self.regions[k];
+            if !region.model.translates() {
+                let support = Support { labels: &labels, label: k as u8, window };
+                region.outcome = self.estimator.improve(&self.scales[self.level], self.level, support, &mut region.state, Free::Depth, &prior, self.sigma, 0, &mut region.equations, region.fresh);
+                region.fresh = true;
+                continue;
+            }
+            let support = Support { labels: &labels, label: k as u8, window };
+            let wald = region.outcome.wald;
+            region.outcome = self.estimator.improve(&self.scales[self.level], self.level, support, &mut region.state, Free::Depth, &prior, self.sigma, steps, &mut region.equations, region.fresh);
+            region.outcome.wald = wald;
+            region.fresh = true;
+        }
+    }
+
+    fn measure_sigma(&mut self) {
+        let spreads = self.regions.iter().filter(|r| r.window.is_some()).map(|r| r.outcome.spread);
+        self.sigma = spreads.fold(LEAST_SIGMA, f32::max);
+    }
+
+    fn select_models(&mut self) {
+        for k in 0..self.regions.len() {
+            let Some(window) = self.regions[k].window else { continue };
+            let flow = self.mean_flow(k, window);
+            let region = &mut self.regions[k];
+            if par("V", 0.0) > 0.0 {
+                eprintln!("  select k{k} flow {flow:.3} wald {:.1}", region.outcome.wald);
+            }
+            if flow < 0.03 * f64::from(1u32 << self.level) {
+                region.model = Kind::Still;
+                region.state = State::still(Surface::flat(region.state.surface.spacing, &region.state.surface.window()));
+                region.fresh = false;
+            } else if region.outcome.wald < 50.0 {
+                region.model = Kind::Translation;
+                region.state.rotation = glam::DMat3::IDENTITY;
+                region.fresh = false;
+            }
+        }
+    }
+
+    fn mean_flow(&self, k: usize, window: Window) -> f64 {
+        let scale = self.here();
+        let region = &self.regions[k];
+        let motion = self.motion(k);
+        let (mut sum, mut n) = (0.0, 0.0);
+        let side = (1 << self.level) as f32;
+        for y in (window.top..window.top + window.height).step_by(4) {
+            for x in (window.left..window.left + window.width).step_by(4) {
+                if usize::from(self.labels[(x, y)]) == k {
+                    let at = |p: usize| (p as f32 + 0.5) * side - 0.5;
+                    let rho = region.state.surface.at(at(x), at(y));
+                    if let Some((u, v)) = scale.camera.displacement(&motion, x as f64, y as f64, f64::from(rho)) {
+                        sum += u.hypot(v);
+                        n += 1.0;
+                    }
+                }
+            }
+        }
+        sum / f64::max(n, 1.0)
+    }
+
+    fn motion(&self, k: usize) -> RigidMotion {
+        let state = &self.regions[k].state;
+        RigidMotion { translation: state.translation, rotation: state.omega() }
+    }
+
+    fn relabel(&mut self, planar: bool, options: &Options) {
+        if self.regions.len() == 1 {
+            self.changed = 0.0;
+            return;
+        }
+        let level = self.level;
+        let sigma = if planar { self.planar_sigma() } else { self.sigma };
+        let scale = &self.scales[level];
+        for (region, costs) in self.regions.iter().zip(&mut self.costs) {
+            if region.window.is_none() {
+                costs.data_mut().fill(f32::MAX / 4.0);
+            } else if planar {
+                label::planar_cost(scale, &region.flow, sigma, costs);
+            } else {
+                label::rigid_cost(scale, level, &region.state, sigma, costs);
+            }
+        }
+        if options.occlusion && !planar {
+            let states: Vec<&State> = self.regions.iter().map(|r| &r.state).collect();
+            let hidden = label::cover(scale, level, &states, &self.labels);
+            hidden.excuse(scale, level, states[0], par("OC", 0.8) as f32 * label::saturation(sigma), &mut self.costs[0]);
+        }
+        let radius = if planar { 3 } else { par("BR", 2.0) as usize };
+        for costs in &mut self.costs {
+            label::box_blur(costs, radius, &mut self.spare);
+        }
+        let beta = if planar { par("PBETA", 0.5) } else { par("BETA", f64::from(BETA)) } as f32 * label::saturation(sigma);
+        self.changed = label::partition(&self.costs, beta, &mut self.labels, &mut self.pulls, &mut self.spare);
+        self.find_windows();
+        if !planar {
+            for k in 0..self.regions.len() {
+                if let Some(window) = self.regions[k].window {
+                    let full = if k == 0 { Window::whole(self.pair.width(), self.pair.height()) } else { self.full_window(window) };
+                    let surface = &self.regions[k].state.surface;
+                    self.regions[k].state.surface = surface.over(surface.spacing, &full);
+                }
+            }
+        }
+    }
+
+    fn planar_sigma(&self) -> f32 {
+        self.regions.iter().filter(|r| r.window.is_some()).map(|r| r.flow.sigma).fold(0.0, f32::max).max(1.0)
+    }
+
+    fn finer(&mut self) {
+        self.level -= 1;
+        let (w, h) = (self.here().width, self.here().height);
+        let old = std::mem::replace(&mut self.labels, Grid::new(1, 1, 0));
+        self.labels = Grid::from_fn(w, h, |x, y| old[((x / 2).min(old.width() - 1), (y / 2).min(old.height() - 1))]);
+        self.fit_memory();
+        self.find_windows();
+    }
+}
+
+/// Labels of a coarser scale: what most... a pixel of four alike, else 255.
+fn coarsened(labels: &Grid<u8>, times: usize) -> Grid<u8> {
+    let mut out = labels.clone();
+    for _ in 0..times {
+        out = Grid::from_fn(out.width() / 2, out.height() / 2, |x, y| {
+            let q = [out[(2 * x, 2 * y)], out[(2 * x + 1, 2 * y)], out[(2 * x, 2 * y + 1)], out[(2 * x + 1, 2 * y + 1)]];
+            if q[0] == q[1] || q[0] == q[2] || q[0] == q[3] { q[0] } else { q[1] }
+        });
+    }
+    out
+}
+
+impl Approach for Layered {
+    fn find_motions(&mut self, options: &Options) {
+        match self.phase {
+            Phase::Planar(round) => self.planar_motions(round),
+            Phase::Search => {
+                self.search_motions(options);
+                self.sigma = self.regions.iter().filter(|r| r.window.is_some()).map(|r| r.flow.sigma).fold(LEAST_SIGMA, f32::max);
+                self.rigid_motions(options, 1);
+                self.measure_sigma();
+                self.regions.iter_mut().for_each(|r| r.fresh = false);
+                self.rigid_motions(options, par("I1", 3.0) as usize);
+                self.measure_sigma();
+                self.regions.iter_mut().for_each(|r| r.fresh = false);
+            }
+            Phase::Rigid(n) => {
+                if n == 0 && self.level < self.base {
+                    for k in 0..self.regions.len() {
+                        if let Some(window) = self.regions[k].window {
+                            let full = if k == 0 { Window::whole(self.pair.width(), self.pair.height()) } else { self.full_window(window) };
+                            self.regions[k].state.surface = self.regions[k].state.surface.over(self.spacing(), &full);
+                        }
+                    }
+                    self.rigid_motions(options, 1);
+                    self.measure_sigma();
+                    self.regions.iter_mut().for_each(|r| r.fresh = false);
+                }
+                self.rigid_motions(options, par("I2", 2.0) as usize);
+                self.measure_sigma();
+                self.regions.iter_mut().for_each(|r| r.fresh = false);
+                if self.level == 0 && n == 0 && options.choose_kind {
+                    self.select_models();
+                }
+            }
+            Phase::Done => {}
+        }
+    }
+
+    fn find_depth(&mut self, options: &Options) {
+        if matches!(self.phase, Phase::Search | Phase::Rigid(_)) {
+            self.rigid_depth(options, par("I4", 2.0) as usize);
+        }
+    }
+
+    fn move_curves(&mut self, options: &Options) {
+        if self.phase == Phase::Done {
+            return;
+        }
+        self.relabel(matches!(self.phase, Phase::Planar(_)), options);
+    }
+
+    fn end_pass(&mut self, _still: bool, _options: &Options) -> bool {
+        self.phase = match self.phase {
+            Phase::Planar(n) if n + 1 < PLANAR_ROUNDS => Phase::Planar(n + 1),
+            Phase::Planar(_) => Phase::Search,
+            Phase::Search if self.level > 0 => {
+                self.finer();
+                Phase::Rigid(0)
+            }
+            Phase::Search => Phase::Rigid(0),
+            Phase::Rigid(n) if n + 1 < par("NR", 2.0) as usize => Phase::Rigid(n + 1),
+            Phase::Rigid(_) if self.level > 0 => {
+                self.finer();
+                Phase::Rigid(0)
+            }
+            _ => Phase::Done,
+        };
+        self.phase != Phase::Done
+    }
+
+    fn reconsider(&mut self, _: &Options) {}
+
+    fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>, _: &Options) {
+        self.place(level_sets);
+    }
+
+    fn energy(&self, _: &Options) -> Energy {
+        self.energy
+    }
+
+    fn labels(&self) -> &Grid<u8> {
+        &self.labels
+    }
+
+    fn level_sets(&self) -> Vec<Grid<f32>> {
+        Vec::new()
+    }
+
+    fn motions(&self) -> Vec<(RigidMotion, Kind)> {
+        (0..self.regions.len()).map(|k| (self.motion(k), self.regions[k].model)).collect()
+    }
+
+    fn behind(&self) -> Vec<Vec<usize>> {
+        Vec::new()
+    }
+
+    fn weights(&self) -> Weights {
+        Weights::default()
+    }
+
+    fn scale(&self) -> (usize, usize) {
+        (self.level, self.base + 1)
+    }
+
+    fn flat(&self) -> bool {
+        false
+    }
+
+    fn interpretation(&self, _options: &Options) -> Interpretation {
+        let (width, height) = (self.pair.width(), self.pair.height());
+        let side = 1 << self.level;
+        let labels = Grid::from_fn(width, height, |x, y| {
+            self.labels[((x / side).min(self.labels.width() - 1), (y / side).min(self.labels.height() - 1))]
+        });
+        let camera = self.scales[0].camera;
+        let mut flow = Flow { u: Grid::new(width, height, 0.0), v: Grid::new(width, height, 0.0) };
+        let mut z = Grid::new(width, height, 1.0f32);
+        let motions: Vec<RigidMotion> = (0..self.regions.len()).map(|k| self.motion(k)).collect();
+        for y in 0..height {
+            for x in 0..width {
+                let k = usize::from(labels[(x, y)]);
+                let rho = self.regions[k].state.surface.at(x as f32, y as f32);
+                if let Some((u, v)) = camera.displacement(&motions[k], x as f64, y as f64, f64::from(rho)) {
+                    flow.u[(x, y)] = u as f32;
+                    flow.v[(x, y)] = v as f32;
+                }
+                z[(x, y)] = 1.0 / rho.max(1e-3);
+            }
+        }
+        Interpretation {
+            camera,
+            labels,
+            depth: z,
+            flow,
+            confidence: Grid::new(width, height, 1.0),
+            occluded: Grid::new(width, height, 0),
+            motions,
+        }
+    }
+}
