@@ -63,7 +63,9 @@ pub mod frames;
 pub mod grid;
 pub mod horn_schunck;
 pub mod interpretation;
-mod layered;
+#[doc(hidden)]
+#[allow(missing_docs)]
+pub mod layered;
 mod linalg;
 pub mod motion;
 pub mod occlusion;

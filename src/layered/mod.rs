@@ -7,3 +7,4 @@ mod scale;
 mod solver;
 
 pub(crate) use solver::Layered;
+pub use solver::ORACLE;

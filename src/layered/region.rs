@@ -11,6 +11,8 @@ pub(crate) struct Region {
     /// Its motion and surface.
     pub state: State,
     pub model: crate::motion::Kind,
+    /// Other models that explain it nearly as well.
+    pub alternatives: Vec<(crate::motion::Kind, State)>,
     /// What the last step left.
     pub outcome: Outcome,
     pub equations: NormalEquations,
@@ -29,6 +31,7 @@ impl Region {
             flow: PlanarFlow::default(),
             state: State::still(surface),
             model: crate::motion::Kind::Full,
+            alternatives: Vec::new(),
             outcome: Outcome::default(),
             equations: NormalEquations::default(),
             fresh: false,

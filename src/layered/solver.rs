@@ -20,6 +20,16 @@ use super::region::Region;
 use super::scale::{Scale, pyramid};
 
 /// Rounds of planar fits and labels before depth is looked for.
+thread_local! { pub static ORACLE: std::cell::RefCell<Option<Grid<u8>>> = const { std::cell::RefCell::new(None) }; }
+
+fn oracle(level: usize, w: usize, h: usize) -> Option<Grid<u8>> {
+    if par("ORACLE", 0.0) == 0.0 { return None; }
+    let full = ORACLE.with(|o| o.borrow().clone())?;
+    let half = (1 << level) / 2;
+    Some(Grid::from_fn(w, h, |x, y| full[((x << level) + half, (y << level) + half)]))
+}
+
+/// R
 const PLANAR_ROUNDS: usize = 6;
 const LEAST_SIGMA: f32 = 0.4;
 const MU_MOTION: f64 = 1e5;
@@ -99,6 +109,7 @@ impl Layered {
         let spacing = self.spacing();
         let whole = Window::whole(fw, fh);
         self.regions = (0..count).map(|_| Region::new(Surface::flat(spacing, &whole))).collect();
+        if let Some(l) = oracle(self.level, self.labels.width(), self.labels.height()) { self.labels = l; }
         self.fit_memory();
         self.find_windows();
     }
@@ -199,7 +210,7 @@ impl Layered {
             let support = Support { labels: &labels, label: k as u8, window };
             let flow = self.regions[k].flow;
             let sigma = flow.sigma.max(0.7);
-            let found = estimate::search(scale, &support, &flow, par("NC", 5.0) as usize);
+            let blocks = estimate::Blocks::gather(scale, &support, &flow);
             let pixels = labels.data().iter().filter(|&&l| usize::from(l) == k).count();
             // A large region shows enough at the next coarser scale.
             let up = usize::from(pixels > 8000 && self.level + 1 < self.scales.len());
@@ -210,45 +221,59 @@ impl Layered {
             let full = self.full_window(window);
             let size = (self.pair.width() * self.pair.height()) as f64 / (320.0 * 240.0);
             let prior = Prior { mu: par("CMU", 1e5) * size * f64::from(sigma * sigma), diffusion: options.diffusion, epsilon: par("EPS", EPSILON) };
-            let mut pool: Vec<(f64, State, Outcome)> = Vec::new();
+            let mut pool: Vec<(f64, Kind, State)> = Vec::new();
             let scale = &self.scales[level];
             let steps = par("I0", 5.0) as usize;
             let spacing = self.regions[k].state.surface.spacing;
             let equations = &mut self.regions[k].equations;
             let estimator = &mut self.estimator;
-            let mut run = |mut state: State, fresh_depth: bool, pool: &mut Vec<(f64, State, Outcome)>| {
-                if fresh_depth {
+            let mut run = |model: Kind, mut state: State, fresh_depth: bool, pool: &mut Vec<(f64, Kind, State)>| {
+                if fresh_depth && model.translates() {
                     estimator.improve(scale, level, csup, &mut state, Free::Depth, &prior, sigma, 1, equations, false);
                 }
-                let outcome = estimator.improve(scale, level, csup, &mut state, Free::Full, &prior, sigma, steps, equations, false);
-                let relief = estimator.relief(&state.surface);
-                let score = outcome.energy / f64::from(sigma * sigma) + RELIEF * relief;
+                let outcome = estimator.improve(scale, level, csup, &mut state, free(model), &prior, sigma, if model == Kind::Still { 0 } else { steps }, equations, false);
+                let relief = if model.translates() { equations.relief(&state.surface) } else { 0.0 };
+                let score = outcome.energy / f64::from(sigma * sigma) + RELIEF * relief + penalty(model);
                 if verbose {
-                    eprintln!("  cand k{k} E {:.1} relief {:.4} score {:.1} T {:?} w {:?}", outcome.energy / f64::from(sigma * sigma), relief, score, state.translation.normalize_or_zero(), state.omega());
+                    eprintln!("  cand k{k} {model:?} E {:.1} relief {:.4} score {:.1} T {:.3?} w {:.5?}", outcome.energy / f64::from(sigma * sigma), relief, score, state.translation.normalize_or_zero(), state.omega());
                 }
-                pool.push((score, state, outcome));
+                pool.push((score, model, state));
             };
-            for candidate in &found {
-                let mut state = State::still(Surface::flat(2 * spacing, &full));
-                state.translation = candidate.translation;
-                state.rotation = candidate.rotation;
-                run(state, true, &mut pool);
+            let flat = State::still(Surface::flat(2 * spacing, &full));
+            run(Kind::Still, flat.clone(), false, &mut pool);
+            run(Kind::Rotation, State { rotation: blocks.rotation(), ..flat.clone() }, false, &mut pool);
+            for (model, most) in [(Kind::Translation, 3), (Kind::Full, par("NC", 5.0) as usize)] {
+                let first = pool.len();
+                for candidate in blocks.directions(most, model == Kind::Full) {
+                    let state = State { translation: candidate.translation, rotation: candidate.rotation, ..flat.clone() };
+                    run(model, state, true, &mut pool);
+                }
+                pool[first..].sort_by(|a, b| a.0.total_cmp(&b.0));
+                if model == Kind::Full && pool.len() > first {
+                    let best = &pool[first].2;
+                    let mut mirror = best.clone();
+                    let t = best.translation;
+                    let w = best.omega();
+                    mirror.translation = glam::DVec3::new(-t.x, -t.y, t.z);
+                    mirror.rotation = estimate::turn(glam::DVec3::new(w.x - 2.0 * t.y, w.y + 2.0 * t.x, w.z));
+                    mirror.surface.rho.iter_mut().for_each(|r| *r = (2.0 - *r).max(0.2));
+                    run(model, mirror, false, &mut pool);
+                    pool[first..].sort_by(|a, b| a.0.total_cmp(&b.0));
+                }
             }
             pool.sort_by(|a, b| a.0.total_cmp(&b.0));
-            if let Some(best) = pool.first() {
-                let mut mirror = best.1.clone();
-                let t = best.1.translation;
-                let w = best.1.omega();
-                mirror.translation = glam::DVec3::new(-t.x, -t.y, t.z);
-                mirror.rotation = estimate::turn(glam::DVec3::new(w.x - 2.0 * t.y, w.y + 2.0 * t.x, w.z));
-                mirror.surface.rho.iter_mut().for_each(|r| *r = (2.0 - *r).max(0.2));
-                run(mirror, false, &mut pool);
-                pool.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let best = pool[0].0;
+            let mut kept: Vec<(Kind, State)> = Vec::new();
+            for (score, model, state) in pool {
+                if score < best + par("KEEP", 60.0) && kept.iter().all(|(m, _)| *m != model) {
+                    kept.push((model, state));
+                }
             }
-            if let Some((_, state, _)) = pool.into_iter().next() {
-                self.regions[k].state = state;
-                self.regions[k].fresh = false;
-            }
+            let region = &mut self.regions[k];
+            region.model = kept[0].0;
+            region.state = kept[0].1.clone();
+            region.alternatives = kept.split_off(1);
+            region.fresh = false;
         }
     }
 
@@ -305,23 +330,40 @@ impl Layered {
         self.sigma = spreads.fold(LEAST_SIGMA, f32::max);
     }
 
-    fn select_models(&mut self) {
+    fn select_models(&mut self, options: &Options) {
+        let labels = self.support_labels();
+        let prior = self.prior(par("MMU", MU_MOTION), options);
+        let sigma = self.sigma;
         for k in 0..self.regions.len() {
             let Some(window) = self.regions[k].window else { continue };
-            let flow = self.mean_flow(k, window);
+            let support = Support { labels: &labels, label: k as u8, window };
+            let level = self.level;
             let region = &mut self.regions[k];
-            if par("V", 0.0) > 0.0 {
-                eprintln!("  select k{k} flow {flow:.3} wald {:.1}", region.outcome.wald);
+            let surface = region.state.surface.clone();
+            let mut best = (f64::INFINITY, region.model, region.state.clone(), Outcome::default());
+            let alternatives = std::mem::take(&mut region.alternatives);
+            let own = (region.model, region.state.clone());
+            for (n, (model, state)) in std::iter::once(own).chain(alternatives).enumerate() {
+                let mut state = state;
+                if n > 0 {
+                    state.surface = state.surface.over(surface.spacing, &surface.window());
+                }
+                let steps = if model == Kind::Still { 0 } else if n == 0 { 0 } else { 3 };
+                let outcome = self.estimator.improve(&self.scales[level], level, support, &mut state, free(model), &prior, sigma, steps, &mut region.equations, false);
+                let relief = if model.translates() { region.equations.relief(&state.surface) } else { 0.0 };
+                let mut score = outcome.energy / f64::from(sigma * sigma) + RELIEF * relief + par("PS", 6.0) * penalty(model);
+                if model == Kind::Still { score -= par("STILLB", 0.0); }
+                if par("V", 0.0) > 0.0 {
+                    eprintln!("  select k{k} {model:?} E {:.1} relief {relief:.4} score {score:.1} T {:.3?} w {:.5?}", outcome.energy / f64::from(sigma * sigma), state.translation.normalize_or_zero(), state.omega());
+                }
+                if score < best.0 {
+                    best = (score, model, state, outcome);
+                }
             }
-            if flow < 0.03 * f64::from(1u32 << self.level) {
-                region.model = Kind::Still;
-                region.state = State::still(Surface::flat(region.state.surface.spacing, &region.state.surface.window()));
-                region.fresh = false;
-            } else if region.outcome.wald < 50.0 {
-                region.model = Kind::Translation;
-                region.state.rotation = glam::DMat3::IDENTITY;
-                region.fresh = false;
-            }
+            region.model = best.1;
+            region.state = best.2;
+            region.outcome = best.3;
+            region.fresh = false;
         }
     }
 
@@ -352,6 +394,7 @@ impl Layered {
     }
 
     fn relabel(&mut self, planar: bool, options: &Options) {
+        if let Some(l) = oracle(self.level, self.labels.width(), self.labels.height()) { if par("ORACLE",0.0) == 1.0 || planar { self.labels = l; self.find_windows(); return; } }
         if self.regions.len() == 1 {
             self.changed = 0.0;
             return;
@@ -373,12 +416,18 @@ impl Layered {
             let hidden = label::cover(scale, level, &states, &self.labels);
             hidden.excuse(scale, level, states[0], par("OC", 0.8) as f32 * label::saturation(sigma), &mut self.costs[0]);
         }
-        let radius = if planar { 3 } else { par("BR", 2.0) as usize };
+        let radius = if planar { 3 } else { par("BR", 1.0) as usize };
         for costs in &mut self.costs {
             label::box_blur(costs, radius, &mut self.spare);
         }
-        let beta = if planar { par("PBETA", 0.5) } else { par("BETA", f64::from(BETA)) } as f32 * label::saturation(sigma);
-        self.changed = label::partition(&self.costs, beta, &mut self.labels, &mut self.pulls, &mut self.spare);
+        let beta = if planar { par("PBETA", 0.5) } else { par("BETA", 4.0) } as f32 * label::saturation(sigma);
+        let (ea, es) = (par("EA", 0.0) as f32, par("ES", 1.0) as f32);
+        let [gx, gy] = &self.scales[level].gradient;
+        let mag = Grid::from_fn(gx.width(), gx.height(), |x, y| gx[(x, y)].hypot(gy[(x, y)]));
+        let mean = mag.data().iter().sum::<f32>() / mag.len() as f32;
+        let s2 = (es * mean).powi(2);
+        let beta = mag.map(|m| beta * (1.0 - ea * m * m / (m * m + s2)));
+        self.changed = label::partition(&self.costs, &beta, &mut self.labels, &mut self.pulls, &mut self.spare);
         self.find_windows();
         if !planar {
             for k in 0..self.regions.len() {
@@ -400,8 +449,27 @@ impl Layered {
         let (w, h) = (self.here().width, self.here().height);
         let old = std::mem::replace(&mut self.labels, Grid::new(1, 1, 0));
         self.labels = Grid::from_fn(w, h, |x, y| old[((x / 2).min(old.width() - 1), (y / 2).min(old.height() - 1))]);
+        if let Some(l) = oracle(self.level, w, h) { if par("ORACLE",0.0) == 1.0 { self.labels = l; } }
         self.fit_memory();
         self.find_windows();
+    }
+}
+
+fn free(model: Kind) -> Free {
+    match model {
+        Kind::Still => Free::Depth,
+        Kind::Rotation => Free::Rotation,
+        Kind::Translation => Free::Translation,
+        Kind::Full => Free::Full,
+    }
+}
+
+fn penalty(model: Kind) -> f64 {
+    match model {
+        Kind::Still => 0.0,
+        Kind::Rotation => par("PR", 20.0),
+        Kind::Translation => par("PT", 30.0),
+        Kind::Full => par("PF", 50.0),
     }
 }
 
@@ -447,7 +515,7 @@ impl Approach for Layered {
                 self.measure_sigma();
                 self.regions.iter_mut().for_each(|r| r.fresh = false);
                 if self.level == 0 && n == 0 && options.choose_kind {
-                    self.select_models();
+                    self.select_models(options);
                 }
             }
             Phase::Done => {}

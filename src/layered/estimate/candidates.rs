@@ -34,47 +34,63 @@ pub(crate) struct Candidate {
 /// Moments of a block: the upper triangle of a 7×7 matrix.
 type Moments = [f32; 28];
 
-/// Up to `most` directions of T, the best first, for the pixels of `support` at `scale`.
-pub(crate) fn search(
-    scale: &Scale,
-    support: &Support,
-    flow: &PlanarFlow,
-    most: usize,
-) -> Vec<Candidate> {
-    let blocks = moments(scale, support, flow);
-    if blocks.is_empty() {
-        return Vec::new();
+/// What the blocks of a region tell.
+pub(crate) struct Blocks {
+    blocks: Vec<Moments>,
+    epsilon: f64,
+}
+
+impl Blocks {
+    /// The moments of the pixels of `support` at `scale`, linearised about `flow`.
+    pub fn gather(scale: &Scale, support: &Support, flow: &PlanarFlow) -> Self {
+        let blocks = moments(scale, support, flow);
+        let trace: f32 = blocks.iter().map(|m| m[at(0, 0)] + m[at(1, 1)]).sum();
+        let epsilon = f64::from(1e-4 * trace) / blocks.len().max(1) as f64;
+        Self { blocks, epsilon }
     }
+
+    /// The rotation that explains most without any translation.
+    pub fn rotation(&self) -> DMat3 {
+        judge(&self.blocks, DVec3::ZERO, self.epsilon.max(1e-9), true).rotation
+    }
+
+    /// Up to `most` directions of T, the best first, each with the best ω, or with none unless it `turns`.
+    pub fn directions(&self, most: usize, turns: bool) -> Vec<Candidate> {
+        if self.blocks.is_empty() {
+            return Vec::new();
+        }
+        let (blocks, epsilon) = (&self.blocks, self.epsilon);
     let trace: f32 = blocks.iter().map(|m| m[at(0, 0)] + m[at(1, 1)]).sum();
     let epsilon = f64::from(1e-4 * trace) / blocks.len() as f64;
-    let mut tried: Vec<Candidate> = hemisphere(DIRECTIONS)
-        .map(|direction| judge(&blocks, direction, epsilon))
-        .collect();
-    tried.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let mut found: Vec<Candidate> = Vec::new();
-    for candidate in tried {
-        let direction = candidate.translation.normalize_or_zero();
-        let far = |other: &Candidate| {
-            other.translation.normalize_or_zero().dot(direction).abs() < APART
-        };
-        if found.len() < most && found.iter().all(far) {
-            found.push(candidate);
+        let mut tried: Vec<Candidate> = hemisphere(DIRECTIONS)
+            .map(|direction| judge(blocks, direction, epsilon, turns))
+            .collect();
+        tried.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let mut found: Vec<Candidate> = Vec::new();
+        for candidate in tried {
+            let direction = candidate.translation.normalize_or_zero();
+            let far = |other: &Candidate| {
+                other.translation.normalize_or_zero().dot(direction).abs() < APART
+            };
+            if found.len() < most && found.iter().all(far) {
+                found.push(candidate);
+            }
         }
+        for candidate in &mut found {
+            *candidate = polished(blocks, *candidate, epsilon, turns);
+        }
+        found
     }
-    for candidate in &mut found {
-        *candidate = polished(&blocks, *candidate, epsilon);
-    }
-    found
 }
 
 /// The candidate after a search of ever smaller steps around it.
-fn polished(blocks: &[Moments], mut best: Candidate, epsilon: f64) -> Candidate {
+fn polished(blocks: &[Moments], mut best: Candidate, epsilon: f64, turns: bool) -> Candidate {
     let mut step = 0.08;
     for _ in 0..5 {
         let direction = best.translation.normalize_or_zero();
         let (b, c) = direction.any_orthonormal_pair();
         let around = [b, -b, c, -c].map(|side| (direction + side * step).normalize());
-        let tried = around.map(|direction| judge(blocks, direction, epsilon));
+        let tried = around.map(|direction| judge(blocks, direction, epsilon, turns));
         match tried.into_iter().min_by(|a, b| a.cost.total_cmp(&b.cost)) {
             Some(better) if better.cost < best.cost => best = better,
             _ => step *= 0.5,
@@ -83,8 +99,8 @@ fn polished(blocks: &[Moments], mut best: Candidate, epsilon: f64) -> Candidate 
     best
 }
 
-/// What a unit direction of T costs, with the best ω and ρ for it.
-fn judge(blocks: &[Moments], direction: DVec3, epsilon: f64) -> Candidate {
+/// What a unit direction of T costs, with the best ρ for it and the best ω if it `turns`.
+fn judge(blocks: &[Moments], direction: DVec3, epsilon: f64, turns: bool) -> Candidate {
     let t = direction.to_array().map(|v| v as f32);
     let epsilon = epsilon as f32;
     let mut sums = [[0.0f32; 4]; 4];
@@ -106,7 +122,11 @@ fn judge(blocks: &[Moments], direction: DVec3, epsilon: f64) -> Candidate {
         a[i][i] += 1e-6 * a[i][i] + 1.0;
         b[i] = f64::from(-sums[i][3]);
     }
-    let omega = solve_positive(&a, &b).unwrap_or_default();
+    let omega = if turns {
+        solve_positive(&a, &b).unwrap_or_default()
+    } else {
+        [0.0; 3]
+    };
     let mut cost = f64::from(sums[3][3]);
     for i in 0..3 {
         cost -= b[i] * omega[i];

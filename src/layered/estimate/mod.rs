@@ -6,7 +6,7 @@ mod planar;
 mod step;
 mod surface;
 
-pub(crate) use candidates::search;
+pub(crate) use candidates::Blocks;
 pub(crate) use normal_equations::{CUT, NormalEquations, Pose, Support};
 pub(crate) use planar::{Degree, PlanarFlow};
 pub(crate) use step::{Estimator, Free, Outcome, Prior, State, surface_energy, turn};

@@ -80,7 +80,6 @@ pub(crate) struct Estimator {
     /// For each control point: the columns of the five motions, and the gradient.
     cross: Vec<[f32; 6]>,
     solved: Vec<[f32; 6]>,
-    seen: Vec<f32>,
 }
 
 impl State {
@@ -205,7 +204,7 @@ impl Estimator {
             _ => 0.0,
         };
         let delta = motion_step(&a, &equations.motion, free, f64::from(variance));
-        self.apply(state, delta, moves_depth);
+        self.apply(equations, state, delta, moves_depth);
         wald
     }
 
@@ -215,10 +214,8 @@ impl Estimator {
         self.band.clear(nodes, surface.bandwidth());
         self.cross.clear();
         self.cross.resize(nodes, [0.0; 6]);
-        self.seen.clear();
         let rows = surface.rows - 1;
         for (n, cell) in equations.cells.iter().enumerate() {
-            self.seen.push(cell.square[0] + cell.square[4] + cell.square[8]);
             let corners = corners(surface, n / rows, n % rows);
             for p in 0..4 {
                 for q in 0..=p {
@@ -250,7 +247,7 @@ impl Estimator {
     }
 
     /// Applies a step of the motion, and the surface's answer to it.
-    fn apply(&mut self, state: &mut State, delta: [f64; 5], moves_depth: bool) {
+    fn apply(&mut self, equations: &NormalEquations, state: &mut State, delta: [f64; 5], moves_depth: bool) {
         let pose = state.pose();
         let tangent = pose.tangent.map(|b| DVec3::from_array(b.map(f64::from)));
         let shift = tangent[0] * delta[0] + tangent[1] * delta[1];
@@ -266,7 +263,7 @@ impl Estimator {
             solved[5] = -change;
         }
         let surface = &state.surface;
-        let mean = self.mean(surface, |n| self.solved[n][5]);
+        let mean = equations.mean(surface, |n| self.solved[n][5]);
         let grown = f64::from(mean.clamp(-0.7, 2.0));
         let old = state.translation;
         let new = old * (1.0 + grown) + shift;
@@ -276,25 +273,30 @@ impl Estimator {
         }
         state.translation = new;
         state.rotation = turn(DVec3::new(delta[2], delta[3], delta[4])) * state.rotation;
-        let mean = self.mean(&state.surface, |n| state.surface.rho[n]);
+        let mean = equations.mean(&state.surface, |n| state.surface.rho[n]);
         if mean > 1e-3 {
             state.surface.rho.iter_mut().for_each(|rho| *rho /= mean);
             state.translation *= f64::from(mean);
         }
     }
+}
 
+impl NormalEquations {
     /// Mean over the cells in which something is seen.
     fn mean(&self, surface: &Surface, value: impl Fn(usize) -> f32) -> f32 {
         let rows = surface.rows - 1;
         let (mut sum, mut count) = (0.0, 0.0);
-        for (n, _) in self.seen.iter().enumerate().filter(|(_, s)| **s > 0.0) {
-            sum += corners(surface, n / rows, n % rows).map(&value).iter().sum::<f32>();
-            count += 4.0;
+        for (n, cell) in self.cells.iter().enumerate() {
+            if cell.square[0] + cell.square[4] + cell.square[8] > 0.0 {
+                let corners = corners(surface, n / rows, n % rows);
+                sum += corners.map(&value).iter().sum::<f32>();
+                count += 4.0;
+            }
         }
         if count > 0.0 { sum / count } else { 1.0 }
     }
 
-    /// Variance of ρ over the cells in which something was seen: how deep the relief is.
+    /// Variance of ρ over the cells in which something is seen: how deep the relief is.
     pub fn relief(&self, surface: &Surface) -> f64 {
         let mean = self.mean(surface, |n| surface.rho[n]);
         let square = self.mean(surface, |n| (surface.rho[n] - mean).powi(2));

@@ -21,7 +21,7 @@ pub(crate) const LENGTH_OF_PULL: f64 = 0.8;
 /// Relabels from costs that are averaged already; which share of pixels changed. `pulls` is memory for one plane a region.
 pub(crate) fn partition(
     costs: &[Grid<f32>],
-    beta: f32,
+    beta: &Grid<f32>,
     labels: &mut Grid<u8>,
     pulls: &mut [Grid<f32>],
     spare: &mut Grid<f32>,
@@ -35,7 +35,7 @@ pub(crate) fn partition(
             for (x, label) in row.iter_mut().enumerate() {
                 let mut best = (*label, f32::INFINITY);
                 for (k, (cost, pull)) in costs.iter().zip(pulls.iter()).enumerate() {
-                    let score = cost[(x, y)] - beta * pull[(x, y)];
+                    let score = cost[(x, y)] - beta[(x, y)] * pull[(x, y)];
                     if score < best.1 {
                         best = (k as u8, score);
                     }
@@ -134,7 +134,7 @@ mod tests {
         let before = energy(&labels);
         let mut memory = vec![Grid::new(48, 40, 0.0); 3];
         let mut room = Grid::new(48, 40, 0.0);
-        partition(&costs, 0.7, &mut labels, &mut memory, &mut room);
+        partition(&costs, &Grid::new(48, 40, 0.7), &mut labels, &mut memory, &mut room);
         assert!(energy(&labels) < before);
     }
 
