@@ -20,6 +20,8 @@ pub(crate) struct Region {
     pub fresh: bool,
     /// Pixels of the scale at work around what it owns; `None` when it owns nothing.
     pub window: Option<Window>,
+    /// The same around what it owns and what is offered to it.
+    pub reach: Option<Window>,
     /// Whether a second explanation, its mirror image, fits as well.
     pub ambiguous: bool,
 }
@@ -36,6 +38,7 @@ impl Region {
             equations: NormalEquations::default(),
             fresh: false,
             window: None,
+            reach: None,
             ambiguous: false,
         }
     }

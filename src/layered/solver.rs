@@ -60,6 +60,7 @@ pub(crate) struct Layered {
     costs: Vec<Grid<f32>>,
     pulls: Vec<Grid<f32>>,
     spare: Grid<f32>,
+    offered: Grid<u8>,
     energy: Energy,
     changed: f64,
 }
@@ -89,6 +90,7 @@ impl Layered {
             costs: Vec::new(),
             pulls: Vec::new(),
             spare: Grid::new(1, 1, 0.0),
+            offered: Grid::new(1, 1, 255),
             energy: Energy::default(),
             changed: 1.0,
             scales,
@@ -124,6 +126,7 @@ impl Layered {
         self.costs = vec![Grid::new(w, h, 0.0); count];
         self.pulls = vec![Grid::new(w, h, 0.0); count];
         self.spare = Grid::new(w, h, 0.0);
+        self.offered = Grid::new(w, h, 255);
     }
 
     fn here(&self) -> &Scale {
@@ -135,6 +138,8 @@ impl Layered {
         for (k, region) in self.regions.iter_mut().enumerate() {
             let data = self.labels.data();
             region.window = Window::around(w, h, 0, |i| usize::from(data[i]) == k);
+            let offered = self.offered.data();
+            region.reach = Window::around(w, h, 0, |i| usize::from(data[i]) == k || usize::from(offered[i]) == k);
             region.fresh = false;
         }
     }
@@ -186,16 +191,16 @@ impl Layered {
             let whole = |labels: &Grid<u8>| Window::around(labels.width(), labels.height(), 0, |i| usize::from(labels.data()[i]) == k);
             if round == 0 || self.phase == Phase::Planar(PLANAR_ROUNDS - 1) && region.flow.sigma == 0.0 {
                 if let Some(window) = whole(&coarse_labels) {
-                    let support = Support { labels: &coarse_labels, label: k as u8, window };
+                    let support = Support { labels: &coarse_labels, offered: None, label: k as u8, window };
                     region.flow = PlanarFlow::search(&self.scales[coarsest], &support);
                 }
                 if let Some(window) = whole(&coarser) {
-                    let support = Support { labels: &coarser, label: k as u8, window };
+                    let support = Support { labels: &coarser, offered: None, label: k as u8, window };
                     region.flow.fit(&self.scales[coarse], &support, estimate::Degree::Shift, 3);
                     region.flow.fit(&self.scales[coarse], &support, estimate::Degree::Affine, 4);
                 }
             }
-            let support = Support { labels: &labels, label: k as u8, window };
+            let support = Support { labels: &labels, offered: None, label: k as u8, window };
             let degree = if round < 3 && k > 0 { estimate::Degree::Affine } else { estimate::Degree::Plane };
             region.flow.fit(&self.scales[self.level], &support, degree, 3);
         }
@@ -207,7 +212,7 @@ impl Layered {
         for k in 0..self.regions.len() {
             let Some(window) = self.regions[k].window else { continue };
             let scale = &self.scales[self.level];
-            let support = Support { labels: &labels, label: k as u8, window };
+            let support = Support { labels: &labels, offered: None, label: k as u8, window };
             let flow = self.regions[k].flow;
             let sigma = flow.sigma.max(0.7);
             let blocks = estimate::Blocks::gather(scale, &support, &flow);
@@ -217,7 +222,7 @@ impl Layered {
             let level = self.level + up;
             let coarse = coarsened(&labels, up);
             let Some(cw) = Window::around(coarse.width(), coarse.height(), 0, |i| usize::from(coarse.data()[i]) == k) else { continue };
-            let csup = Support { labels: &coarse, label: k as u8, window: cw };
+            let csup = Support { labels: &coarse, offered: None, label: k as u8, window: cw };
             let full = self.full_window(window);
             let size = (self.pair.width() * self.pair.height()) as f64 / (320.0 * 240.0);
             let prior = Prior { mu: par("CMU", 1e5) * size * f64::from(sigma * sigma), diffusion: options.diffusion, epsilon: par("EPS", EPSILON) };
@@ -289,9 +294,10 @@ impl Layered {
 
     fn rigid_motions(&mut self, options: &Options, steps: usize) {
         let labels = self.support_labels();
+        let offered = self.offered.clone();
         let prior = self.prior(par("MMU", MU_MOTION), options);
         for k in 0..self.regions.len() {
-            let Some(window) = self.regions[k].window else { continue };
+            let Some(window) = self.regions[k].reach else { continue };
             let region = &mut self.regions[k];
             let free = match region.model {
                 Kind::Still => continue,
@@ -299,7 +305,7 @@ impl Layered {
                 Kind::Translation => Free::Translation,
                 Kind::Full => Free::Full,
             };
-            let support = Support { labels: &labels, label: k as u8, window };
+            let support = Support { labels: &labels, offered: Some(&offered), label: k as u8, window };
             region.outcome = self.estimator.improve(&self.scales[self.level], self.level, support, &mut region.state, free, &prior, self.sigma, steps, &mut region.equations, region.fresh);
             region.fresh = true;
         }
@@ -307,17 +313,18 @@ impl Layered {
 
     fn rigid_depth(&mut self, options: &Options, steps: usize) {
         let labels = self.support_labels();
+        let offered = self.offered.clone();
         let prior = self.prior(par("DMU", MU_DEPTH), options);
         for k in 0..self.regions.len() {
-            let Some(window) = self.regions[k].window else { continue };
+            let Some(window) = self.regions[k].reach else { continue };
             let region = &mut self.regions[k];
             if !region.model.translates() {
-                let support = Support { labels: &labels, label: k as u8, window };
+                let support = Support { labels: &labels, offered: Some(&offered), label: k as u8, window };
                 region.outcome = self.estimator.improve(&self.scales[self.level], self.level, support, &mut region.state, Free::Depth, &prior, self.sigma, 0, &mut region.equations, region.fresh);
                 region.fresh = true;
                 continue;
             }
-            let support = Support { labels: &labels, label: k as u8, window };
+            let support = Support { labels: &labels, offered: Some(&offered), label: k as u8, window };
             let wald = region.outcome.wald;
             region.outcome = self.estimator.improve(&self.scales[self.level], self.level, support, &mut region.state, Free::Depth, &prior, self.sigma, steps, &mut region.equations, region.fresh);
             region.outcome.wald = wald;
@@ -336,7 +343,7 @@ impl Layered {
         let sigma = self.sigma;
         for k in 0..self.regions.len() {
             let Some(window) = self.regions[k].window else { continue };
-            let support = Support { labels: &labels, label: k as u8, window };
+            let support = Support { labels: &labels, offered: None, label: k as u8, window };
             let level = self.level;
             let region = &mut self.regions[k];
             let surface = region.state.surface.clone();
@@ -410,17 +417,49 @@ impl Layered {
             } else {
                 label::rigid_cost(scale, level, &region.state, sigma, costs);
             }
+            if region.window.is_some() {
+                label::finish(costs, sigma, &mut self.spare, par("HR", 4.0) as usize, par("HD", 9.0) as f32, par("HM", 0.0) as f32, scale, if planar { par("SLP", 0.0) } else if self.level > 0 { par("SL1", 0.0) } else { par("SL0", 0.0) } as f32);
+            }
         }
         if options.occlusion && !planar {
             let states: Vec<&State> = self.regions.iter().map(|r| &r.state).collect();
-            let hidden = label::cover(scale, level, &states, &self.labels);
-            hidden.excuse(scale, level, states[0], par("OC", 0.8) as f32 * label::saturation(sigma), &mut self.costs[0]);
+            let first = &scale.first;
+            let most = label::saturation(sigma);
+            let oc = par("OC", 0.7) as f32;
+            let shift = par("SH", 7.0) as isize;
+            let mut chance = if par("CH", 1.0) > 0.0 { Grid::from_fn(first.width(), first.height(), |x, y| {
+                let (x, y) = (x as isize, y as isize);
+                let here = first.clamped(x, y);
+                [(shift, 0), (-shift, 0), (0, shift), (0, -shift)].iter().map(|(dx, dy)| {
+                    let e = first.clamped(x + dx, y + dy) - here;
+                    let q = e * e;
+                    0.25 * oc * q * most / (q + most)
+                }).sum::<f32>()
+            }) } else { Grid::new(first.width(), first.height(), oc * most) };
+            label::box_blur(&mut chance, 3, &mut self.spare);
+            label::box_blur(&mut chance, 3, &mut self.spare);
+            let cover = label::Cover::of(scale, level, &states, &self.labels, &self.costs, par("CONF", 9.0) as f32 * most);
+            for (k, state) in states.iter().enumerate() {
+                if k == 0 || par("MUT", 1.0) > 0.0 {
+                    cover.excuse(k, scale, level, state, &chance, &mut self.costs[k]);
+                }
+            }
         }
         let radius = if planar { 3 } else { par("BR", 1.0) as usize };
         for costs in &mut self.costs {
             label::box_blur(costs, radius, &mut self.spare);
         }
-        let beta = if planar { par("PBETA", 0.5) } else { par("BETA", 4.0) } as f32 * label::saturation(sigma);
+        let beta = if planar { par("PBETA", 0.5) } else { if self.level > 0 || self.phase == Phase::Search { par("BETA1", 1.0) } else if self.phase == Phase::Rigid(0) { par("BETA0", 2.0) } else { par("BETA", 4.0) } } as f32 * label::saturation(sigma);
+        let arg = if self.level > 0 { par("ARG", 2.0) } else { par("ARG0", 0.0) } as usize;
+        if arg > 0 && !planar {
+            let mut smooth = self.costs.clone();
+            for c in &mut smooth { label::box_blur(c, arg, &mut self.spare); label::box_blur(c, arg, &mut self.spare); }
+            for i in 0..self.labels.len() {
+                let mut best = (0, f32::INFINITY);
+                for (k, c) in smooth.iter().enumerate() { if c.data()[i] < best.1 { best = (k, c.data()[i]); } }
+                self.labels.data_mut()[i] = best.0 as u8;
+            }
+        }
         let (ea, es) = (par("EA", 0.0) as f32, par("ES", 1.0) as f32);
         let [gx, gy] = &self.scales[level].gradient;
         let mag = Grid::from_fn(gx.width(), gx.height(), |x, y| gx[(x, y)].hypot(gy[(x, y)]));
@@ -428,16 +467,45 @@ impl Layered {
         let s2 = (es * mean).powi(2);
         let beta = mag.map(|m| beta * (1.0 - ea * m * m / (m * m + s2)));
         self.changed = label::partition(&self.costs, &beta, &mut self.labels, &mut self.pulls, &mut self.spare);
+        self.offered.data_mut().fill(255);
+        if !planar && par("OFF", 1.0) > 0.0 {
+            let most = label::saturation(sigma) * par("OFFC", 0.4) as f32;
+            for i in 0..self.labels.len() {
+                let owner = usize::from(self.labels.data()[i]);
+                if self.costs[owner].data()[i] > most {
+                    let mut best = (255u8, par("OFFP", 0.01) as f32);
+                    for (j, pull) in self.pulls.iter().enumerate() {
+                        if j != owner && (j > 0 || par("OFFB", 1.0) > 0.0) && pull.data()[i] > best.1 { best = (j as u8, pull.data()[i]); }
+                    }
+                    self.offered.data_mut()[i] = best.0;
+                }
+            }
+        }
         self.find_windows();
         if !planar {
             for k in 0..self.regions.len() {
-                if let Some(window) = self.regions[k].window {
+                if let Some(window) = self.regions[k].reach {
                     let full = if k == 0 { Window::whole(self.pair.width(), self.pair.height()) } else { self.full_window(window) };
                     let surface = &self.regions[k].state.surface;
                     self.regions[k].state.surface = surface.over(surface.spacing, &full);
                 }
             }
         }
+    }
+
+    fn dump(&self) {
+        thread_local! { static N: std::cell::Cell<usize> = const { std::cell::Cell::new(0) }; }
+        let n = N.with(|n| { n.set(n.get() + 1); n.get() });
+        let (w, h) = (self.labels.width(), self.labels.height());
+        let truth = ORACLE.with(|o| o.borrow().clone()).unwrap();
+        let half = (1 << self.level) / 2;
+        let mut out = format!("P5 {w} {h} 255\n").into_bytes();
+        for y in 0..h { for x in 0..w {
+            let t = truth[((x << self.level) + half, (y << self.level) + half)];
+            let l = self.labels[(x, y)];
+            out.push(if l == t { 40 * t } else { 255 - 20 * t });
+        } }
+        std::fs::write(format!("/tmp/dump/{n:02}.pgm"), out).unwrap();
     }
 
     fn planar_sigma(&self) -> f32 {
@@ -529,6 +597,7 @@ impl Approach for Layered {
     }
 
     fn move_curves(&mut self, options: &Options) {
+        if par("DUMP", 0.0) > 0.0 { self.dump(); }
         if self.phase == Phase::Done {
             return;
         }
@@ -539,12 +608,8 @@ impl Approach for Layered {
         self.phase = match self.phase {
             Phase::Planar(n) if n + 1 < PLANAR_ROUNDS => Phase::Planar(n + 1),
             Phase::Planar(_) => Phase::Search,
-            Phase::Search if self.level > 0 => {
-                self.finer();
-                Phase::Rigid(0)
-            }
             Phase::Search => Phase::Rigid(0),
-            Phase::Rigid(n) if n + 1 < par("NR", 2.0) as usize => Phase::Rigid(n + 1),
+            Phase::Rigid(n) if n + 1 < if self.level > 0 { par("NR1", 2.0) } else { par("NR", 2.0) } as usize => Phase::Rigid(n + 1),
             Phase::Rigid(_) if self.level > 0 => {
                 self.finer();
                 Phase::Rigid(0)

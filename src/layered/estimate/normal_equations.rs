@@ -36,6 +36,8 @@ pub(crate) struct Pose {
 #[derive(Clone, Copy)]
 pub(crate) struct Support<'a> {
     pub labels: &'a Grid<u8>,
+    /// Pixels that another region owns but does not explain.
+    pub offered: Option<&'a Grid<u8>>,
     pub label: u8,
     pub window: Window,
 }
@@ -235,12 +237,13 @@ impl Rows {
             scale.camera.cy as f32,
         );
         let labels = &support.labels.row(y)[left..left + n];
+        let offered = support.offered.map_or(labels, |o| &o.row(y)[left..left + n]);
         let first = &scale.first.row(y)[left..left + n];
         let [px, py, _] = &self.place;
         let [gx, gy, _] = &mut self.lever;
         for i in 0..n {
             let (x, y) = (px[i] * f + cx, py[i] * f + cy);
-            if labels[i] == support.label && scale.contains(x, y) {
+            if (labels[i] == support.label || offered[i] == support.label) && scale.contains(x, y) {
                 let [value, across, down] = scale.read(x, y);
                 let residual = value - first[i];
                 let bin = (residual.abs() * BINS_PER_LEVEL) as usize;

@@ -33,7 +33,7 @@ fn cost(e: f32, most: f32) -> f32 {
 /// Costs under a rigid motion and a surface; `saturation` where the surface does not reach.
 pub(crate) fn rigid_cost(scale: &Scale, level: usize, state: &State, sigma: f32, out: &mut Grid<f32>) {
     let most = saturation(sigma);
-    out.data_mut().fill(most);
+    out.data_mut().fill(f32::INFINITY);
     let Window { left, top, width, height } = inside(&state.surface.window(), level, scale);
     let (f, cx, cy) = (
         scale.camera.focal as f32,
@@ -56,21 +56,39 @@ pub(crate) fn rigid_cost(scale: &Scale, level: usize, state: &State, sigma: f32,
             let near = f / q[2].max(1e-3);
             let (to_x, to_y) = (q[0] * near + cx, q[1] * near + cy);
             out[x] = if scale.contains(to_x, to_y) {
-                cost(scale.brightness(to_x, to_y) - first[x], most)
+                scale.brightness(to_x, to_y) - first[x]
             } else {
-                LEAVES * most
+                f32::NAN
             };
         }
     }
 }
 
+/// GM and shading.
+pub(crate) fn finish(e: &mut Grid<f32>, sigma: f32, spare: &mut Grid<f32>, radius: usize, delta: f32, mix: f32, scale: &Scale, slack: f32) {
+    let most = saturation(sigma);
+    let mut mean = e.map(|v| if v.is_finite() { v } else { 0.0 });
+    super::box_blur(&mut mean, radius, spare);
+    let [gx, gy] = &scale.gradient;
+    let share = slack * slack / (sigma * sigma);
+    for (((e, mean), gx), gy) in e.data_mut().iter_mut().zip(mean.data()).zip(gx.data()).zip(gy.data()) {
+        let unit = (1.0 + share * (gx * gx + gy * gy)).sqrt().recip();
+        *e = if e.is_nan() {
+            LEAVES * most
+        } else if e.is_infinite() {
+            most
+        } else {
+            let plain = cost(*e * unit, most);
+            let high = cost((*e - mean) * unit, most);
+            if mix > 0.0 { (1.0 - mix) * plain + mix * high } else { plain.min(high + delta * most) }
+        };
+    }
+}
+
 /// Costs under a planar flow.
 pub(crate) fn planar_cost(scale: &Scale, flow: &PlanarFlow, sigma: f32, out: &mut Grid<f32>) {
-    let most = saturation(sigma);
+    let _ = sigma;
     planar_residuals(scale, flow, out);
-    for e in out.data_mut() {
-        *e = if e.is_nan() { LEAVES * most } else { cost(*e, most) };
-    }
 }
 
 /// Residuals under a planar flow; not a number where it leads out of the frame.

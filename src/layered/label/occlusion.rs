@@ -10,48 +10,69 @@ use super::super::estimate::State;
 use super::super::scale::Scale;
 use super::data_cost::inside;
 
-/// Places of the second frame that regions in front cover.
-pub(crate) struct Hidden {
-    covered: Grid<bool>,
+/// Which regions are seen at each place of the second frame, a bit for each.
+pub(crate) struct Cover {
+    seen: Grid<u8>,
 }
 
-/// Where the pixels of all regions but the background go.
-pub(crate) fn cover(scale: &Scale, level: usize, states: &[&State], labels: &Grid<u8>) -> Hidden {
-    let mut covered = Grid::new(scale.width, scale.height, false);
-    for (k, state) in states.iter().enumerate().skip(1) {
-        for_each_target(scale, level, state, |x, y, to_x, to_y| {
-            if usize::from(labels[(x, y)]) != k {
-                return;
-            }
-            // All four pixels around: what spreads leaves no gaps.
-            let (left, top) = (to_x.floor(), to_y.floor());
-            for (px, py) in [(left, top), (left + 1.0, top), (left, top + 1.0), (left + 1.0, top + 1.0)] {
-                if px >= 0.0 && py >= 0.0 && px < scale.width as f32 && py < scale.height as f32 {
-                    covered[(px as usize, py as usize)] = true;
+impl Cover {
+    /// Where the pixels of all regions but the background go, as far as they look there as they should: at less
+    /// than `confirmed`.
+    pub fn of(
+        scale: &Scale,
+        level: usize,
+        states: &[&State],
+        labels: &Grid<u8>,
+        costs: &[Grid<f32>],
+        confirmed: f32,
+    ) -> Self {
+        let mut seen = Grid::new(scale.width, scale.height, 0u8);
+        for (k, state) in states.iter().enumerate().skip(1) {
+            for_each_target(scale, level, state, |x, y, to_x, to_y| {
+                if usize::from(labels[(x, y)]) != k || costs[k][(x, y)] > confirmed {
+                    return;
                 }
-            }
-        });
+                // All four pixels around: what spreads leaves no gaps.
+                let (left, top) = (to_x.floor(), to_y.floor());
+                for (px, py) in [
+                    (left, top),
+                    (left + 1.0, top),
+                    (left, top + 1.0),
+                    (left + 1.0, top + 1.0),
+                ] {
+                    if px >= 0.0 && py >= 0.0 && px < scale.width as f32 && py < scale.height as f32 {
+                        seen[(px as usize, py as usize)] |= 1 << k;
+                    }
+                }
+            });
+        }
+        Self { seen }
     }
-    Hidden { covered }
-}
 
-impl Hidden {
-    /// Whether something in front is seen at a place of the second frame.
-    pub fn at(&self, x: f32, y: f32) -> bool {
+    /// Whether another region than `k` is seen where one of its pixels goes.
+    pub fn hides(&self, k: usize, x: f32, y: f32) -> bool {
         let (x, y) = (x.round(), y.round());
         x >= 0.0
             && y >= 0.0
-            && x < self.covered.width() as f32
-            && y < self.covered.height() as f32
-            && self.covered[(x as usize, y as usize)]
+            && x < self.seen.width() as f32
+            && y < self.seen.height() as f32
+            && self.seen[(x as usize, y as usize)] & !(1 << k) != 0
     }
 
-    /// Charges pixels of `state`'s surface that are hidden at most `most`.
-    pub fn excuse(&self, scale: &Scale, level: usize, state: &State, most: f32, costs: &mut Grid<f32>) {
+    /// Charges hidden pixels of region `k` at most what chance would.
+    pub fn excuse(
+        &self,
+        k: usize,
+        scale: &Scale,
+        level: usize,
+        state: &State,
+        chance: &Grid<f32>,
+        costs: &mut Grid<f32>,
+    ) {
         for_each_target(scale, level, state, |x, y, to_x, to_y| {
-            let cost = &mut costs[(x, y)];
-            if *cost > most && self.at(to_x, to_y) {
-                *cost = most;
+            let (cost, chance) = (&mut costs[(x, y)], chance[(x, y)]);
+            if *cost > chance && self.hides(k, to_x, to_y) {
+                *cost = chance;
             }
         });
     }
