@@ -1,5 +1,6 @@
 // One case: everything is tried once, then all take turns, so that a machine that is busy for a while hits all alike.
 
+import { Trouble } from "../../scripts/shell.js";
 import { firstUsable } from "./scores.js";
 import { median } from "./statistics.js";
 
@@ -26,6 +27,7 @@ const SAMPLE = 0.2;
 /** @typedef {{ by: string, server: Server, work: string }} Peer */
 
 /**
+ * All who solve or find flow in one case; who fails is left out.
  * @param {import("./cases.js").Case} one
  * @param {string} folder where it has been rendered
  * @param {Engine[]} engines
@@ -36,7 +38,17 @@ const SAMPLE = 0.2;
 export async function measure(one, folder, engines, peers, rounds) {
   const turns = [];
   for (const preset of one.presets) {
-    for (const engine of engines) turns.push(await ours(engine, { folder, preset }));
+    for (const engine of engines) {
+      try {
+        turns.push(await ours(engine, { folder, preset }));
+      } catch (error) {
+        if (!(error instanceof Trouble)) throw error;
+        console.error(error.message);
+        // What has failed once may be in no state to go on.
+        engine.server.end();
+        engine.server = engine.fresh();
+      }
+    }
   }
   for (const peer of peers) turns.push(await theirs(peer, folder));
   for (let round = 0; round < rounds; round++) {
@@ -49,15 +61,14 @@ export async function measure(one, folder, engines, peers, rounds) {
  * @param {Engine} engine
  * @param {{ folder: string, preset: string }} request
  */
-async function ours({ by, server, fresh }, request) {
-  const trial = await server.ask({ work: "trial", ...request });
+async function ours(engine, request) {
+  const trial = await engine.server.ask({ work: "trial", ...request });
   const usable = firstUsable(trial.scores);
-  const alone = fresh();
-  const { bytes } = await alone.ask({ work: "memory", ...request });
-  alone.end();
+  const alone = engine.fresh();
+  const { bytes } = await alone.ask({ work: "memory", ...request }).finally(() => alone.end());
   /** @type {Entry} */
   const entry = {
-    by,
+    by: engine.by,
     preset: request.preset,
     samples: [],
     score: trial.scores.at(-1),
@@ -66,7 +77,7 @@ async function ours({ by, server, fresh }, request) {
     status: trial.status,
     bytes,
   };
-  return { entry, run: () => server.ask({ work: "solve", usable, ...request }) };
+  return { entry, run: () => engine.server.ask({ work: "solve", usable, ...request }) };
 }
 
 /**
@@ -94,6 +105,7 @@ async function theirs({ by, server, work }, folder) {
  * @returns {Promise<Seconds>}
  */
 async function sample(run) {
+  /** @type {Seconds[]} */
   const runs = [];
   for (let spent = 0; spent < SAMPLE;) {
     const seconds = await run();

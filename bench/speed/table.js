@@ -6,7 +6,7 @@
  * @param {string[][]} rows
  */
 export function table(head, rows) {
-  const widths = head.map((cell, i) => Math.max(...[head, ...rows].map((row) => length(row[i]))));
+  const widths = head.map((_, i) => Math.max(...[head, ...rows].map((row) => length(row[i]))));
   const line = (/** @type {string[]} */ cells) =>
     `| ${widths.map((width, i) => padded(cells[i] ?? "", width, i > 0)).join(" | ")} |`;
   const rule = widths.map((width, i) => "-".repeat(i ? width - 1 : width) + (i ? ":" : ""));
