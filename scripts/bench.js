@@ -1,8 +1,8 @@
 // npm run bench: how long the solver takes, natively and as WebAssembly in Node, beside TV-L1 and DIS.
 // `npm run bench -- --help` says what can be asked.
 
-import { mkdirSync, rmSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join, relative } from "node:path";
 import { parseArgs } from "node:util";
 
 import { cases, SCENES, SIZES, USUAL } from "../bench/speed/cases.js";
@@ -16,6 +16,7 @@ import { Server } from "../bench/speed/server.js";
 import { table } from "../bench/speed/table.js";
 import { duration, ifMain, root, run, Trouble } from "./shell.js";
 import { setup } from "./setup.js";
+import { unlessFresh } from "./stamp.js";
 import { benchWasm, wasm } from "./wasm.js";
 
 const HELP = `npm run bench -- [SCENE …] [options]
@@ -40,6 +41,9 @@ const OPTIONS = /** @type {const} */ ({
   markdown: { type: "string" },
   help: { type: "boolean" },
 });
+
+/** What rendered scenes depend on. */
+const RENDERED_BY = ["src/scene", "src/camera.rs", "src/srgb.rs", "bench/speed/render.rs"];
 
 /** Least number of runs whose median is worth printing. */
 const LEAST_ROUNDS = 7;
@@ -88,10 +92,11 @@ async function solves(chosen, rounds) {
       const folder = join(root, "out/speed", `${scene}-${width}x${height}`);
       mkdirSync(folder, { recursive: true });
       console.error(`\n${scene}, ${width}×${height}`);
-      await engines[0]?.server.ask({ work: "render", folder, scene, width, height });
+      // The ray caster takes minutes for a film of full size; 60 MB keep it.
+      await unlessFresh(relative(root, folder), RENDERED_BY, () =>
+        start.native().once({ work: "render", folder, scene, width, height }),
+      );
       const entries = await measure(one, folder, engines, others, rounds);
-      // A film of full size has 60 MB.
-      rmSync(folder, { recursive: true, force: true });
       results.push({ one, entries });
       console.error(table(rows.HEAD, rows.rows({ one, entries })));
     }

@@ -64,8 +64,7 @@ export async function measure(one, folder, engines, peers, rounds) {
 async function ours(engine, request) {
   const trial = await engine.server.ask({ work: "trial", ...request });
   const usable = firstUsable(trial.scores);
-  const alone = engine.fresh();
-  const { bytes } = await alone.ask({ work: "memory", ...request }).finally(() => alone.end());
+  const { bytes } = await engine.fresh().once({ work: "memory", ...request });
   /** @type {Entry} */
   const entry = {
     by: engine.by,

@@ -49,6 +49,14 @@ export class Server {
     return answer;
   }
 
+  /**
+   * Asks one thing, and ends it.
+   * @param {Record<string, unknown>} request
+   */
+  once(request) {
+    return this.ask(request).finally(() => this.end());
+  }
+
   end() {
     this.child.stdin.end();
   }

@@ -109,6 +109,7 @@ test("all take turns, and who fails is left out", async () => {
   const engine = (by, total) => {
     const server = /** @type {any} */ ({
       end() {},
+      once: (/** @type {{ work: string }} */ request) => server.ask(request),
       /** @param {{ work: string }} request */
       async ask({ work }) {
         if (work === "trial" && total === 0) throw new Trouble("it has failed");
