@@ -18,7 +18,10 @@ const DENY = ["--", "-D", "warnings"];
 const STAGES = [
   ["rust format", () => run("cargo", ["fmt", "--check"])],
   ["rust lint", () => run("cargo", ["clippy", "--locked", "--all-targets", ...DENY])],
-  ["rust lint for wasm", () => run("cargo", ["clippy", "--locked", "--lib", ...WASM, ...DENY])],
+  [
+    "rust lint for wasm",
+    () => run("cargo", ["clippy", "--locked", "--lib", "--features", "bench", ...WASM, ...DENY]),
+  ],
   [
     "rust docs",
     () => run("cargo", ["doc", "--locked", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" }),
@@ -28,6 +31,7 @@ const STAGES = [
   ["build", build],
   ["page format", () => run("prettier", ["--check", "."])],
   ["page types", types],
+  ["speed table tests", () => nodeTests("tests/speed")],
   ["command line tests", commandLine],
   ["page tests", page],
 ];
@@ -44,7 +48,12 @@ async function types() {
 
 async function commandLine() {
   await wasm();
-  return run("node", ["--test", "--test-reporter=spec", ...filesIn("tests/cli", ".test.js")]);
+  return nodeTests("tests/cli");
+}
+
+/** @param {string} folder */
+function nodeTests(folder) {
+  return run("node", ["--test", "--test-reporter=spec", ...filesIn(folder, ".test.js")]);
 }
 
 async function page() {

@@ -31,14 +31,35 @@ const FEATURES = [
 
 /** Compiles, binds and optimises, unless nothing changed since the last time. */
 export function wasm() {
-  return unlessFresh("pkg", SOURCES, () =>
+  return made("pkg", process.env.CARGO_TARGET_DIR ?? "target", []);
+}
+
+/** The same with kernels to be timed, elsewhere: see `src/wasm/bench.rs`. */
+export async function benchWasm() {
+  const folder = "out/kernels";
+  // A target folder of its own, or each of the two would be compiled anew after the other.
+  await made(folder, join(process.env.CARGO_TARGET_DIR ?? "target", "bench"), [
+    "--features",
+    "bench",
+  ]);
+  return folder;
+}
+
+/**
+ * @param {string} folder
+ * @param {string} targets cargo's
+ * @param {string[]} options for cargo
+ */
+function made(folder, targets, options) {
+  return unlessFresh(folder, SOURCES, () =>
     stage("WebAssembly: compile, bind, optimise", async () => {
       const target = "wasm32-unknown-unknown";
-      await run("cargo", ["build", "--locked", "--release", "--lib", "--target", target]);
-      const built = join(process.env.CARGO_TARGET_DIR ?? "target", target, "release/relievo.wasm");
-      rmSync(join(root, "pkg"), { recursive: true, force: true });
-      await run("wasm-bindgen", ["--target", "web", "--out-dir", "pkg", built]);
-      const bound = "pkg/relievo_bg.wasm";
+      const lib = ["build", "--locked", "--release", "--lib", "--target", target];
+      await run("cargo", [...lib, "--target-dir", targets, ...options]);
+      const built = join(targets, target, "release/relievo.wasm");
+      rmSync(join(root, folder), { recursive: true, force: true });
+      await run("wasm-bindgen", ["--target", "web", "--out-dir", folder, built]);
+      const bound = join(folder, "relievo_bg.wasm");
       await run("wasm-opt", ["-O3", ...FEATURES, bound, "-o", bound]);
     }),
   );

@@ -229,14 +229,14 @@ fn frames_hold_whole_numbers_as_files_do() {
 
 #[test]
 fn variants_keep_their_promises() {
-    for base in ["blocks", "carousel"] {
+    for (base, regions) in [("blocks", 3), ("carousel", 4), ("crowd", 5)] {
         for seed in 0..9 {
             let displacement = [1.0, 4.0, 12.0][seed as usize % 3];
             let sequence =
                 scene::variant(base, seed, 0.0, displacement, 120, 90).expect("a variant");
             let truth = &sequence.truth;
             let what = &sequence.name;
-            assert_eq!(truth.regions(), if base == "blocks" { 3 } else { 4 });
+            assert_eq!(truth.regions(), regions);
             for k in 1..truth.regions() {
                 let object: Vec<_> = pixels(&sequence)
                     .filter(|&at| usize::from(truth.labels[at]) == k)
@@ -291,6 +291,53 @@ fn what_is_filmed_in_passing_is_one_scene_whose_depth_leaps() {
     }
 }
 
+/// Frames 1 and 2 of a film, with the truth about them, under the film's name.
+fn later(name: &str, film: &scene::Film) -> Sequence {
+    Sequence {
+        name: name.to_owned(),
+        title: String::new(),
+        lesson: String::new(),
+        frames: [film.frames[1].clone(), film.frames[2].clone()],
+        curves: Vec::new(),
+        truth: film.truths[1].clone(),
+    }
+}
+
+#[test]
+fn a_film_goes_on_as_its_sequence_began() {
+    for name in scene::names() {
+        let (sequence, film) = (
+            scene::render(name, 200, 150).expect(name),
+            scene::render_film(name, 200, 150, 3).expect(name),
+        );
+        assert_eq!(film.frames[..2], sequence.frames);
+        assert_eq!(
+            (&film.curves, &film.truths[0]),
+            (&sequence.curves, &sequence.truth)
+        );
+        assert_eq!((film.frames.len(), film.truths.len()), (3, 2));
+        assert_eq!(film.truths[1].motions, sequence.truth.motions);
+        let (still, warped) = differences(&later(name, &film));
+        assert!(warped < 2.5, "{name}: {warped} grey levels");
+        assert!(warped < 0.5 * still, "{name}: {warped} against {still}");
+    }
+}
+
+#[test]
+fn a_variant_s_film_has_its_frames_and_noise_of_its_own_in_each() {
+    let size = [96, 72];
+    let sequence = scene::variant("crowd", 3, 2.0, 4.0, size[0], size[1]).expect("a variant");
+    let film = |noise| scene::variant_film("crowd", 3, noise, 4.0, size, 3).expect("a film");
+    let (noisy, clean) = (film(2.0), film(0.0));
+    assert_eq!(noisy.frames[..2], sequence.frames);
+    let noise = |i: usize| {
+        let pairs = noisy.frames[i].grey.data().iter();
+        pairs.zip(clean.frames[i].grey.data()).map(|(a, b)| a - b)
+    };
+    let product = |i, j| noise(i).zip(noise(j)).map(|(a, b)| a * b).sum::<f32>();
+    assert!(product(1, 2).abs() < 0.1 * product(2, 2));
+}
+
 #[test]
 fn noise_has_the_strength_asked_for() {
     let render = |sigma| scene::variant("carousel", 9, sigma, 2.0, 96, 72).expect("a variant");
@@ -315,6 +362,12 @@ fn what_does_not_exist_is_refused() {
         scene::variant("head", 1, 0.0, 1.0, 64, 48),
         Err(Error::Choice { .. })
     ));
+    for frames in [0, 1, 101] {
+        assert!(matches!(
+            scene::render_film("head", 64, 48, frames),
+            Err(Error::Count { .. })
+        ));
+    }
     for (noise, displacement) in [(-1.0, 1.0), (f32::NAN, 1.0), (0.0, f64::NAN), (0.0, 100.0)] {
         assert!(matches!(
             scene::variant("blocks", 1, noise, displacement, 64, 48),

@@ -1,6 +1,6 @@
-//! The ray caster: which surface a pixel of either frame shows.
+//! The ray caster: which surface a pixel of a frame shows.
 //!
-//! Rays start at the camera, the origin of both frames; bodies are where the moment has them. What is seen is coloured in
+//! Rays start at the camera, the origin of every frame; bodies are where the moment has them. What is seen is coloured in
 //! `shade.rs` and made a picture of in `picture.rs`.
 
 use glam::{DMat3, DVec3};
@@ -12,13 +12,13 @@ use crate::camera::Camera;
 /// Depth of what no ray meets.
 const FAR: f64 = 1000.0;
 
-/// One of the two moments.
+/// The moment of a frame: 0 for the first. Body k is where `motions[k]`, applied so many times, takes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Moment {
-    /// The first frame.
-    First,
-    /// The second frame.
-    Second,
+pub struct Moment(pub usize);
+
+impl Moment {
+    /// That of the first frame, in which a stage is described.
+    pub const FIRST: Self = Self(0);
 }
 
 /// What a ray meets.
@@ -65,10 +65,11 @@ impl<'a> Caster<'a> {
             .motions
             .iter()
             .map(|motion| {
-                let (rotation, shift) = match moment {
-                    Moment::First => (DMat3::IDENTITY, DVec3::ZERO),
-                    Moment::Second => (motion.matrix(), motion.translation),
-                };
+                let (mut rotation, mut shift) = (DMat3::IDENTITY, DVec3::ZERO);
+                for _ in 0..moment.0 {
+                    rotation = motion.matrix() * rotation;
+                    shift = motion.matrix() * shift + motion.translation;
+                }
                 Place {
                     rotation,
                     back: rotation.transpose(),

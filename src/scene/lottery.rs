@@ -28,9 +28,15 @@ impl Course {
     }
 }
 
-/// A scene whose bodies do not move yet, and how they shall: `many` bodies of several kinds, which
-/// turn, or else two blocks.
-pub fn draw(dice: &mut Dice, many: bool) -> (Stage, Vec<Course>) {
+/// A scene whose bodies do not move yet, and how they shall: two blocks, or three or four bodies of several
+/// kinds, which turn.
+pub fn draw(dice: &mut Dice, bodies: usize) -> (Stage, Vec<Course>) {
+    let many = bodies > 2;
+    let apart = match bodies {
+        2 => 2.3,
+        3 => 1.75,
+        _ => 1.5,
+    };
     let ground = Pose::ground(
         dice.between(0.5, 0.85) - if many { 0.1 } else { 0.0 },
         dice.between(6.2, 7.2),
@@ -50,7 +56,6 @@ pub fn draw(dice: &mut Dice, many: bool) -> (Stage, Vec<Course>) {
         material: Material::matt(texture(dice)),
         ..parts[0].clone()
     });
-    let bodies = if many { 3 } else { 2 };
     let alike = !many && dice.chance(0.6);
     for body in 1..=bodies {
         let own = texture(dice);
@@ -63,7 +68,7 @@ pub fn draw(dice: &mut Dice, many: bool) -> (Stage, Vec<Course>) {
             own
         };
         let slot = body as f64 - 0.5 * (bodies + 1) as f64;
-        let x = slot * if many { 1.75 } else { 2.3 } + dice.between(-0.3, 0.3);
+        let x = slot * apart + dice.between(-0.3, 0.3);
         let z = dice.between(-1.0, 0.9);
         let part = object(dice, body, many, x, z, texture);
         parts.push(Part {

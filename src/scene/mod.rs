@@ -9,6 +9,7 @@ mod cast;
 mod columns;
 mod dice;
 mod figure;
+mod film;
 mod flight;
 mod head;
 mod lottery;
@@ -31,9 +32,9 @@ use crate::curves::Shape;
 use crate::error::Error;
 use crate::frames::{Frame, MAX_SIDE, MIN_SIDE};
 use crate::interpretation::Interpretation;
-use cast::{Caster, Moment};
 use stage::Stage;
 
+pub use film::{Film, render_film, variant_film};
 pub use passing::passing;
 pub use variant::variant;
 
@@ -94,19 +95,18 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// # Errors
 /// [`Error::Choice`] for an unknown name, [`Error::Size`] outside the limits of a frame.
 pub fn render(name: &str, width: usize, height: usize) -> Result<Sequence, Error> {
-    let entry = CATALOGUE
-        .iter()
-        .find(|e| e.name == name)
-        .ok_or_else(|| Error::Choice {
-            what: "built-in sequence".to_owned(),
-            value: name.to_owned(),
-            choices: names().collect::<Vec<_>>().join(", "),
-        })?;
-    let camera = camera(name, width, height)?;
-    let stage = (entry.stage)();
-    let pictures = [Moment::First, Moment::Second]
-        .map(|moment| Caster::new(&stage, camera, moment).picture(width, height));
-    Ok(sequence(entry, &stage, camera, width, height, &pictures))
+    let entry = entry(name)?;
+    render_film(name, width, height, 2).map(|film| film.sequence(entry))
+}
+
+/// The built-in sequence of that name.
+fn entry(name: &str) -> Result<&'static Entry, Error> {
+    let found = CATALOGUE.iter().find(|e| e.name == name);
+    found.ok_or_else(|| Error::Choice {
+        what: "built-in sequence".to_owned(),
+        value: name.to_owned(),
+        choices: names().collect::<Vec<_>>().join(", "),
+    })
 }
 
 /// A camera whose horizontal field of view is 53° in a 4:3 frame; in a flatter or taller frame the
@@ -121,23 +121,4 @@ fn camera(name: &str, width: usize, height: usize) -> Result<Camera, Error> {
         });
     }
     Camera::centred((width as f64).min(height as f64 * 4.0 / 3.0), width, height)
-}
-
-fn sequence(
-    entry: &Entry,
-    stage: &Stage,
-    camera: Camera,
-    width: usize,
-    height: usize,
-    pictures: &[Vec<[f32; 3]>; 2],
-) -> Sequence {
-    let truth = truth::truth(stage, camera, width, height);
-    Sequence {
-        name: entry.name.to_owned(),
-        title: entry.title.to_owned(),
-        lesson: entry.lesson.to_owned(),
-        frames: [0, 1].map(|i| Frame::from_colours(width, height, &pictures[i])),
-        curves: truth::curves(&truth.labels, stage.motions.len()),
-        truth,
-    }
 }

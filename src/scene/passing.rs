@@ -17,7 +17,7 @@ const NEARER: f64 = 2.0;
 /// The camera's turn, as a share of its shift in scene units.
 const TURN: f64 = 0.05;
 
-/// Films the stage of the variant of `base` ("blocks" or "carousel") from `seed`, standing still, at `width × height`.
+/// Films the stage of the variant of `base` ("blocks", "carousel" or "crowd") from `seed`, standing still, at `width × height`.
 /// Noise and the largest displacement as in [`variant`](super::variant()).
 ///
 /// # Errors
@@ -60,6 +60,6 @@ pub fn passing(
         lesson: format!(
             "Drawn at random, one motion: {displacement} pixels at most, noise of {noise_sigma} grey levels."
         ),
-        ..drawn.filmed()
+        ..drawn.filmed()?
     })
 }

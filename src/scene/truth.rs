@@ -1,7 +1,7 @@
 //! What is exactly true of a scene: labels, depth, motion, flow, occlusion, and curves to start from.
 //!
 //! One ray through each pixel's centre. Flow is the projection of the moved surface point less the
-//! pixel, from the same rigid motions that place the bodies in the second frame.
+//! pixel, from the same rigid motions that place the bodies in the next frame.
 
 use super::cast::{Caster, Moment};
 use super::stage::Stage;
@@ -13,16 +13,21 @@ use crate::interpretation::{Flow, Interpretation};
 /// Image motion by translation, in pixels, below which depth does not show.
 const OBSERVABLE: f64 = 1e-3;
 
-/// The truth about `stage`.
+/// The truth about the frame of `moment` and the one after it.
 ///
-/// `occluded` is 1 where the first frame's point is hidden in the second, by another body or by its
-/// own, and also where it leaves the frame: either way the second frame does not show it.
+/// `occluded` is 1 where this frame's point is hidden in the next, by another body or by its
+/// own, and also where it leaves the frame: either way the next frame does not show it.
 /// `confidence` is 1 where the body's translation moves the pixel, so that depth can be told from
 /// the frames, and 0 elsewhere.
-pub fn truth(stage: &Stage, camera: Camera, width: usize, height: usize) -> Interpretation {
-    let first = Caster::new(stage, camera, Moment::First);
-    let seen = Grid::from_fn(width, height, |x, y| first.look(x as f64, y as f64));
-    let second = Caster::new(stage, camera, Moment::Second);
+pub fn truth(
+    stage: &Stage,
+    camera: Camera,
+    moment: Moment,
+    [width, height]: [usize; 2],
+) -> Interpretation {
+    let now = Caster::new(stage, camera, moment);
+    let seen = Grid::from_fn(width, height, |x, y| now.look(x as f64, y as f64));
+    let next = Caster::new(stage, camera, Moment(moment.0 + 1));
     let mut u = Grid::new(width, height, 0.0_f32);
     let mut v = Grid::new(width, height, 0.0_f32);
     let mut confidence = Grid::new(width, height, 0.0_f32);
@@ -48,7 +53,7 @@ pub fn truth(stage: &Stage, camera: Camera, width: usize, height: usize) -> Inte
                 qx >= -0.5 && qy >= -0.5 && qx < width as f64 - 0.5 && qy < height as f64 - 0.5;
             let depth = motion.apply(ray * at.depth).z;
             // Nothing within a thousandth of its depth can hide it: that is its own surface.
-            if !inside || second.look(qx, qy).depth < depth * 0.999 {
+            if !inside || next.look(qx, qy).depth < depth * 0.999 {
                 occluded[(x, y)] = 1;
             }
         }

@@ -1,4 +1,5 @@
-//! Random variants of `blocks` and `carousel`, for measuring accuracy on scenes that nobody tuned for.
+//! Random variants of `blocks` and `carousel`, and of `carousel` with a fourth body, for measuring on scenes that nobody
+//! tuned for.
 //!
 //! A seed decides shapes, places, textures, lamp and motions. A draw is kept when every object shows
 //! between [`LEAST_SHOWN`] and [`MOST_SHOWN`] of the frame, covers its own middle, and moves
@@ -10,9 +11,10 @@ use glam::DVec3;
 
 use super::cast::{Caster, Moment};
 use super::dice::Dice;
+use super::film::Film;
 use super::lottery::{Course, draw};
 use super::stage::Stage;
-use super::{Entry, Sequence, blocks, camera, carousel, sequence, truth};
+use super::{Entry, Sequence, blocks, camera, carousel, truth};
 use crate::camera::{Camera, RigidMotion};
 use crate::error::{Error, within};
 use crate::grid::Grid;
@@ -35,7 +37,7 @@ const MOST_DISPLACEMENT: f64 = 16.0;
 /// Largest noise that can be asked for.
 const MOST_NOISE: f64 = 50.0;
 
-/// Draws a variant of `base` ("blocks" or "carousel") from `seed` and renders it at
+/// Draws a variant of `base` ("blocks" has two bodies, "carousel" three, "crowd" four) from `seed` and renders it at
 /// `width × height`. Both frames get Gaussian noise of `noise_sigma` grey levels (0–50), the same in all
 /// channels, and are rounded again; `displacement` (0.1–16) is the largest image motion in pixels
 /// at a width of 320, larger in proportion in larger frames.
@@ -58,7 +60,7 @@ pub fn variant(
         lesson: format!(
             "Drawn at random: {displacement} pixels of motion at most, noise of {noise_sigma} grey levels."
         ),
-        ..drawn.filmed()
+        ..drawn.filmed()?
     })
 }
 
@@ -83,14 +85,15 @@ impl Drawn {
         displacement: f64,
         size: [usize; 2],
     ) -> Result<Self, Error> {
-        let (entry, many) = match base {
-            "blocks" => (blocks::ENTRY, false),
-            "carousel" => (carousel::ENTRY, true),
+        let (entry, bodies) = match base {
+            "blocks" => (blocks::ENTRY, 2),
+            "carousel" => (carousel::ENTRY, 3),
+            "crowd" => (carousel::ENTRY, 4),
             _ => {
                 return Err(Error::Choice {
                     what: "sequence with variants".to_owned(),
                     value: base.to_owned(),
-                    choices: "blocks, carousel".to_owned(),
+                    choices: "blocks, carousel, crowd".to_owned(),
                 });
             }
         };
@@ -98,12 +101,17 @@ impl Drawn {
         within("displacement", displacement, 0.1, MOST_DISPLACEMENT)?;
         let camera = camera(base, size[0], size[1])?;
         // Another stream for each base, and another for the noise.
-        let mut dice = Dice::new(seed ^ if many { 0x6361_726f } else { 0x626c_6f63 });
+        let stream = match bodies {
+            2 => 0x626c_6f63,
+            3 => 0x6361_726f,
+            _ => 0x6372_6f77,
+        };
+        let mut dice = Dice::new(seed ^ stream);
         let noise = Dice::new(dice.bits());
-        let (mut stage, mut courses) = draw(&mut dice, many);
+        let (mut stage, mut courses) = draw(&mut dice, bodies);
         let mut draws = 1;
         while !set_motion(&mut stage, &courses, displacement) && draws < DRAWS {
-            (stage, courses) = draw(&mut dice, many);
+            (stage, courses) = draw(&mut dice, bodies);
             draws += 1;
         }
         Ok(Self {
@@ -117,19 +125,24 @@ impl Drawn {
         })
     }
 
-    /// The stage as filmed, under its base's name.
-    pub fn filmed(mut self) -> Sequence {
-        let [width, height] = self.size;
-        let pictures = [Moment::First, Moment::Second].map(|moment| {
-            let mut picture = Caster::new(&self.stage, self.camera, moment).picture(width, height);
-            for colour in &mut picture {
+    /// Two frames of the stage, under its base's name.
+    ///
+    /// # Errors
+    /// Those of [`Film`].
+    pub fn filmed(self) -> Result<Sequence, Error> {
+        let entry = self.entry;
+        Ok(self.film(2)?.sequence(&entry))
+    }
+
+    /// `frames` frames of the stage, each with noise of its own.
+    pub fn film(mut self, frames: usize) -> Result<Film, Error> {
+        let noisy = |picture: &mut Vec<[f32; 3]>| {
+            for colour in picture {
                 let error = self.noise_sigma * self.noise.normal() as f32;
                 *colour = colour.map(|c| (c + error).round().clamp(0.0, 255.0));
             }
-            picture
-        });
-        let Self { entry, stage, .. } = &self;
-        sequence(entry, stage, self.camera, width, height, &pictures)
+        };
+        Film::of(&self.stage, self.camera, self.size, frames, noisy)
     }
 }
 
@@ -140,7 +153,7 @@ pub(super) fn set_motion(stage: &mut Stage, courses: &[Course], displacement: f6
     let Ok(camera) = Camera::centred(w as f64, w, h) else {
         return false;
     };
-    let caster = Caster::new(stage, camera, Moment::First);
+    let caster = Caster::new(stage, camera, Moment::FIRST);
     let seen = Grid::from_fn(w, h, |x, y| caster.look(x as f64, y as f64));
     let move_at = |motion: &RigidMotion, x: usize, y: usize| {
         camera

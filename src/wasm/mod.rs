@@ -6,6 +6,8 @@
 //! JavaScript's collector frees when it likes: `free()` does it at once.
 
 mod baseline;
+#[cfg(feature = "bench")]
+mod bench;
 mod catalogue;
 mod files;
 mod frame;
@@ -16,6 +18,8 @@ mod solver;
 mod start;
 
 pub use baseline::{Baseline, horn_schunck};
+#[cfg(feature = "bench")]
+pub use bench::Kernels;
 pub use catalogue::{limits, option_catalogue, preset_catalogue, scene_catalogue, view_catalogue};
 pub use files::SavedResult;
 pub use frame::{Frame, Picture};
