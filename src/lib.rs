@@ -66,6 +66,7 @@ pub mod interpretation;
 pub mod motion;
 pub mod occlusion;
 pub mod options;
+pub mod paper;
 pub mod scene;
 pub mod score;
 pub mod solver;

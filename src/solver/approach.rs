@@ -12,7 +12,7 @@ use crate::options::Options;
 use super::weights::Weights;
 
 /// One way to carry out the three steps.
-pub(super) trait Approach {
+pub(crate) trait Approach {
     /// Step 1.
     fn find_motions(&mut self, options: &Options);
 

@@ -8,6 +8,7 @@
 //! A shadow that passes over the background changes many pixels by less than noise changes one. There the mean
 //! residual over some pixels around counts as well, in the same way and in units of its own spread.
 
+use crate::paper::spread;
 use crate::depth::Polynomials;
 use crate::frames::blur;
 use crate::grid::Grid;
@@ -15,7 +16,6 @@ use crate::warp::{Linearisation, RESIDUAL, Scale};
 use crate::window::Window;
 
 use super::region::Region;
-use super::weights::spread;
 
 /// Error of position granted when motion and depth are fitted, in pixels.
 const POSITION_ERROR: f32 = 0.06;

@@ -2,7 +2,7 @@
 
 use super::evidence::Evidence;
 use super::region::Region;
-use super::weights::spread;
+use crate::paper::spread;
 use crate::frames::Lighting;
 use crate::grid::Grid;
 use crate::motion::solve_positive;
