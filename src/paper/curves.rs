@@ -65,13 +65,7 @@ impl CurveEvolution {
 
     /// Moves the level sets `phi` (of labels 1…), which are distances next to their zero lines, by `steps` steps of
     /// (17). They come back so, and at least six pixels or so large farther off.
-    pub fn run(
-        &mut self,
-        phi: &mut [Grid<f32>],
-        xi: &impl Residuals,
-        lambda: f32,
-        steps: usize,
-    ) {
+    pub fn run(&mut self, phi: &mut [Grid<f32>], xi: &impl Residuals, lambda: f32, steps: usize) {
         let Some(first) = phi.first() else {
             return;
         };
@@ -82,7 +76,7 @@ impl CurveEvolution {
         });
         for (k, phi_k) in phi.iter().enumerate() {
             self.fronts[k].level.read(phi_k);
-            self.lay(k, phi, xi);
+            self.find_speed(k, phi, xi);
         }
         let Some(typical) = self.typical_speed() else {
             return;
@@ -91,7 +85,8 @@ impl CurveEvolution {
         for k in 0..phi.len() {
             for step in 0..steps {
                 if step > 0 && step % STEPS == 0 {
-                    self.lay(k, phi, xi);
+                    self.redistancing.run(&mut self.fronts[k].level);
+                    self.find_speed(k, phi, xi);
                 }
                 self.advance(k, dt, lambda);
             }
@@ -102,12 +97,11 @@ impl CurveEvolution {
         }
     }
 
-    /// Lays the band of curve `k` anew, and what moves it there: ξk − min_{j≠k} ξj. Inside γk only the background and
-    /// regions within reach count: what γk leaves to a region far away would fall to whoever is there, whatever that
-    /// costs. `phi` is where the curves were at first, for all steps.
-    fn lay(&mut self, k: usize, phi: &[Grid<f32>], xi: &impl Residuals) {
+    /// What moves curve `k` in its band: ξk − min_{j≠k} ξj. Inside γk only the background and regions within reach count:
+    /// what γk leaves to a region far away would fall to whoever is there, whatever that costs. `phi` is where the curves
+    /// were at first, for all steps.
+    fn find_speed(&mut self, k: usize, phi: &[Grid<f32>], xi: &impl Residuals) {
         let Front { level, speed } = &mut self.fronts[k];
-        self.redistancing.run(level);
         for span in &level.band {
             let (y, first, n) = (span.row - 1, span.first - 1, span.len());
             let pixels = first..first + n;

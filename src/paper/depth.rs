@@ -209,10 +209,8 @@ impl Rows {
             // Minus ∂ψ/∂Z.
             let along = slope[x] * rho * rho;
             energy[x] = psi * psi;
-            gradient[x] = flux_left[x] + flux_above[x]
-                - flux_right[x]
-                - flux_below[x]
-                - 2.0 * along * psi;
+            gradient[x] =
+                flux_left[x] + flux_above[x] - flux_right[x] - flux_below[x] - 2.0 * along * psi;
             curvature[x] = 2.0 * (along * along + left[x] + right[x] + above[x] + below[x]);
         }
         sum(energy)

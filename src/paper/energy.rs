@@ -43,7 +43,9 @@ fn relief(smoothness: &Smoothness, z: &Grid<f32>) -> f64 {
             let (dx, dy) = (here[x + 1] - here[x], below[x] - here[x]);
             row[x] = smoothness.at(dx * dx + dy * dy).0;
         }
-        row[width - 1] = smoothness.at((below[width - 1] - here[width - 1]).powi(2)).0;
+        row[width - 1] = smoothness
+            .at((below[width - 1] - here[width - 1]).powi(2))
+            .0;
         energy += sum(&row);
     }
     energy

@@ -59,6 +59,7 @@ fn write_rows(
 ) {
     let (f, cx) = (camera.focal as f32, camera.cx as f32);
     let y = (py as f64 - camera.cy) as f32;
+    let per_focal = f.recip();
     let n = z.len();
     let (ix, iy) = (&ix[..n], &iy[..n]);
     let (s1, s2, s3) = (&mut s1[..n], &mut s2[..n], &mut s3[..n]);
@@ -70,8 +71,8 @@ fn write_rows(
         s1[i] = f * gx * rho;
         s2[i] = f * gy * rho;
         s3[i] = -e * rho;
-        q1[i] = -f * gy - y * e / f;
-        q2[i] = f * gx + x * e / f;
+        q1[i] = -f * gy - y * e * per_focal;
+        q2[i] = f * gx + x * e * per_focal;
         q3[i] = x * gy - y * gx;
     }
 }

@@ -9,17 +9,27 @@ use crate::frames::Derivatives;
 use crate::grid::Grid;
 
 /// What ψ of every region depends on, but for depth.
-#[derive(Clone, Copy)]
 pub struct Psi<'a> {
-    /// The camera.
-    pub camera: &'a Camera,
-    /// Ix, Iy and It.
-    pub derivatives: &'a Derivatives,
-    /// The motion of each region, the background's first.
-    pub motions: &'a [RigidMotion],
+    derivatives: &'a Derivatives,
+    /// The motion of every region along every row, region by region.
+    motions: Vec<RowMotion>,
 }
 
-impl Psi<'_> {
+impl<'a> Psi<'a> {
+    /// ψ of regions with these `motions`, the background's first.
+    pub fn new(camera: &Camera, derivatives: &'a Derivatives, motions: &[RigidMotion]) -> Self {
+        let rows = 0..derivatives.it.height();
+        let along = |m| rows.clone().map(move |y| RowMotion::new(camera, m, y));
+        Self {
+            derivatives,
+            motions: motions.iter().flat_map(along).collect(),
+        }
+    }
+
+    fn along(&self, k: usize, y: usize) -> &RowMotion {
+        &self.motions[k * self.derivatives.it.height() + y]
+    }
+
     /// Writes ψ of region `k`, grey levels, at `pixels` of row `y`, where `z` is the whole row's depth.
     pub(super) fn of_region(
         &self,
@@ -29,9 +39,9 @@ impl Psi<'_> {
         z: &[f32],
         psi: &mut [f32],
     ) {
-        let row = RowMotion::new(self.camera, &self.motions[k], y);
         let z = &z[pixels.clone()];
-        row.residual(self.derivatives, y, pixels, z, psi);
+        self.along(k, y)
+            .residual(self.derivatives, y, pixels, z, psi);
     }
 
     /// Calls `visit` with every row of ψ, grey levels, each pixel under the motion of its own region.
@@ -54,10 +64,10 @@ impl Psi<'_> {
     ) {
         for y in 0..labels.height() {
             for (k, run) in runs(labels.row(y)) {
-                let row = RowMotion::new(self.camera, &self.motions[k], y);
                 let slope = &mut slope.row_mut(y)[run.clone()];
                 let offset = &mut offset.row_mut(y)[run.clone()];
-                row.along_depth(self.derivatives, y, run, slope, offset);
+                self.along(k, y)
+                    .along_depth(self.derivatives, y, run, slope, offset);
             }
         }
     }

@@ -37,6 +37,31 @@ impl Span {
     }
 }
 
+/// Adds the spans of a row that consist of `cells` which are in the band; the first begins at column `first`, and all
+/// end at column `end`.
+fn push_spans(
+    band: &mut Vec<Span>,
+    row: usize,
+    first: usize,
+    end: usize,
+    cells: impl Iterator<Item = bool>,
+) {
+    let mut before = false;
+    for (first, near) in (first..).step_by(CELL).zip(cells) {
+        let cell_end = (first + CELL).min(end);
+        match band.last_mut() {
+            Some(span) if near && before => span.end = cell_end,
+            _ if near => band.push(Span {
+                row,
+                first,
+                end: cell_end,
+            }),
+            _ => {}
+        }
+        before = near;
+    }
+}
+
 /// A level set with a ring of pixels around it that repeats its border.
 pub(super) struct Padded {
     /// φ, one pixel wider than the frame on every side.
@@ -53,26 +78,30 @@ impl Padded {
         }
     }
 
-    /// Takes over a level set; the band is all of it until it is laid.
+    /// Takes over a level set that is a distance within [`REACH`] of its zero line: that is the band.
     pub fn read(&mut self, phi: &Grid<f32>) {
         let (width, height) = (phi.width(), phi.height());
-        for y in 0..height {
-            self.phi.row_mut(y + 1)[1..=width].copy_from_slice(phi.row(y));
-        }
-        let row = |y| Span {
-            row: y + 1,
-            first: 1,
-            end: width + 1,
-        };
         self.band.clear();
-        self.band.extend((0..height).map(row));
+        for y in 0..height {
+            let row = phi.row(y);
+            self.phi.row_mut(y + 1)[1..=width].copy_from_slice(row);
+            let near = |cell: &[f32]| cell.iter().fold(false, |near, p| near | (p.abs() < REACH));
+            push_spans(
+                &mut self.band,
+                y + 1,
+                1,
+                width + 1,
+                row.chunks(CELL).map(near),
+            );
+        }
         self.repeat_border();
     }
 
     pub fn write(&self, phi: &mut Grid<f32>) {
         let (width, height) = (phi.width(), phi.height());
         for y in 0..height {
-            phi.row_mut(y).copy_from_slice(&self.phi.row(y + 1)[1..=width]);
+            phi.row_mut(y)
+                .copy_from_slice(&self.phi.row(y + 1)[1..=width]);
         }
     }
 
@@ -104,12 +133,11 @@ pub(super) struct Redistancing {
 
 impl Redistancing {
     pub fn new(width: usize, height: usize) -> Self {
-        let (width, height) = (width + 2, height + 2);
         Self {
-            distance: Grid::new(width, height, FAR),
-            fixed: Grid::new(width, height, 0.0),
+            distance: Grid::new(width + 2, height + 2, FAR),
+            fixed: Grid::new(width + 2, height + 2, 0.0),
             crossings: Vec::new(),
-            cells: Grid::new(width.div_ceil(CELL), height, false),
+            cells: Grid::new(width.div_ceil(CELL), height + 2, false),
             row: vec![0.0; width],
         }
     }
@@ -151,7 +179,11 @@ impl Redistancing {
     fn find_crossings(&mut self, level: &Padded) {
         let phi = &level.phi;
         for span in &level.band {
-            let (up, here, down) = (phi.row(span.row - 1), phi.row(span.row), phi.row(span.row + 1));
+            let (up, here, down) = (
+                phi.row(span.row - 1),
+                phi.row(span.row),
+                phi.row(span.row + 1),
+            );
             let mut x = span.first;
             while x < span.end {
                 let end = (x + CELL).min(span.end);
@@ -193,31 +225,26 @@ impl Redistancing {
         let (Some(first), Some(last)) = (self.crossings.first(), self.crossings.last()) else {
             return;
         };
-        let (width, height) = (self.distance.width(), self.distance.height());
+        let (width, height) = (self.distance.width() - 2, self.distance.height() - 2);
         let (top, bottom) = (first.1, last.1);
         for y in top..=bottom {
             self.cells.row_mut(y).fill(false);
         }
         for &(x, y) in &self.crossings {
-            let cells = x.saturating_sub(MARGIN) / CELL..=(x + MARGIN).min(width - 1) / CELL;
+            // The ring is no part of a cell.
+            let cells =
+                (x - 1).saturating_sub(MARGIN) / CELL..=(x - 1 + MARGIN).min(width - 1) / CELL;
             self.cells.row_mut(y)[cells].fill(true);
         }
         let mut near = vec![false; self.cells.width()];
-        for row in top.saturating_sub(MARGIN).max(1)..=(bottom + MARGIN).min(height - 2) {
+        for row in top.saturating_sub(MARGIN).max(1)..=(bottom + MARGIN).min(height) {
             near.fill(false);
             for y in row.saturating_sub(MARGIN).max(top)..=(row + MARGIN).min(bottom) {
                 for (n, &c) in near.iter_mut().zip(self.cells.row(y)) {
                     *n |= c;
                 }
             }
-            let mut x = 0;
-            for cells in near.chunk_by(|a, b| a == b) {
-                let (first, end) = (x.max(1), (x + CELL * cells.len()).min(width - 1));
-                x += CELL * cells.len();
-                if cells[0] && first < end {
-                    band.push(Span { row, first, end });
-                }
-            }
+            push_spans(band, row, 1, width + 1, near.iter().copied());
         }
     }
 
@@ -256,6 +283,13 @@ mod tests {
     fn redistanced(phi: &Grid<f32>) -> Grid<f32> {
         let mut level = Padded::new(phi.width(), phi.height());
         level.read(phi);
+        // Wherever the zero line may be.
+        let row = |y| Span {
+            row: y + 1,
+            first: 1,
+            end: phi.width() + 1,
+        };
+        level.band = (0..phi.height()).map(row).collect();
         Redistancing::new(phi.width(), phi.height()).run(&mut level);
         let mut found = phi.clone();
         level.write(&mut found);
@@ -308,9 +342,7 @@ mod tests {
 
     #[test]
     fn again_and_again_does_not_creep() {
-        let mut phi = Grid::from_fn(W, H, |x, y| {
-            12.4 - (x as f32 - 30.3).hypot(y as f32 - 26.8)
-        });
+        let mut phi = Grid::from_fn(W, H, |x, y| 12.4 - (x as f32 - 30.3).hypot(y as f32 - 26.8));
         for _ in 0..50 {
             phi = redistanced(&phi);
         }
@@ -323,9 +355,7 @@ mod tests {
     fn straight_lines_keep_their_distance_up_to_the_border() {
         for angle in [0.0f32, 0.3, 0.785, 1.2, 1.571] {
             let (c, s) = (angle.cos(), angle.sin());
-            let line = Grid::from_fn(W, H, |x, y| {
-                (x as f32 - 31.3) * c + (y as f32 - 27.6) * s
-            });
+            let line = Grid::from_fn(W, H, |x, y| (x as f32 - 31.3) * c + (y as f32 - 27.6) * s);
             let found = redistanced(&line.map(|p| 3.0 * p));
             for (p, d) in line.data().iter().zip(found.data()) {
                 if p.abs() < REACH - 1.0 {

@@ -40,6 +40,9 @@ impl Smoothness {
     pub fn at(&self, r2: f32) -> (f32, f32) {
         let q = self.unit * r2;
         let e = (1.0 + self.edge * q).sqrt();
-        (self.weight * q / (1.0 + e), self.weight * self.unit / e)
+        // One division for two quotients.
+        let both = (e * (1.0 + e)).recip();
+        let (g, diffusivity) = (q * e * both, (1.0 + e) * both);
+        (self.weight * g, self.weight * self.unit * diffusivity)
     }
 }

@@ -77,11 +77,7 @@ impl Paper {
     }
 
     fn psi(&self) -> Psi<'_> {
-        Psi {
-            camera: &self.camera,
-            derivatives: &self.derivatives,
-            motions: &self.motions,
-        }
+        Psi::new(&self.camera, &self.derivatives, &self.motions)
     }
 
     /// σ of the residual as it is, grey levels.
@@ -183,11 +179,7 @@ impl Approach for Paper {
     fn find_depth(&mut self, options: &Options) {
         self.ensure_weights(options);
         let smoothness = self.smoothness(options);
-        let psi = Psi {
-            camera: &self.camera,
-            derivatives: &self.derivatives,
-            motions: &self.motions,
-        };
+        let psi = Psi::new(&self.camera, &self.derivatives, &self.motions);
         let DepthDescent { slope, offset, .. } = &mut self.descent;
         psi.along_depth(&self.labels, slope, offset);
         self.descent
@@ -200,11 +192,7 @@ impl Approach for Paper {
             return;
         }
         let xi = Squared {
-            psi: Psi {
-                camera: &self.camera,
-                derivatives: &self.derivatives,
-                motions: &self.motions,
-            },
+            psi: Psi::new(&self.camera, &self.derivatives, &self.motions),
             z: &self.z,
         };
         let (lambda, steps) = (self.weights.lambda as f32, options.curve_steps);

@@ -8,10 +8,10 @@
 //! A shadow that passes over the background changes many pixels by less than noise changes one. There the mean
 //! residual over some pixels around counts as well, in the same way and in units of its own spread.
 
-use crate::paper::spread;
 use crate::depth::Polynomials;
 use crate::frames::blur;
 use crate::grid::Grid;
+use crate::paper::spread;
 use crate::warp::{Linearisation, RESIDUAL, Scale};
 use crate::window::Window;
 
