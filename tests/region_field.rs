@@ -4,8 +4,9 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::Grid;
-use relievo::depth::{Bends, Edges, FieldPrior, Plane, confidence};
+use relievo::depth::{Bends, Edges, FieldPrior, Plane};
 use relievo::options::Diffusion;
+use relievo::paper::confidence;
 
 const W: usize = 13;
 const H: usize = 9;
