@@ -16,11 +16,13 @@ use crate::grid::Grid;
 
 /// A curve's greatest advance in one step, in pixels: upwind differences are stable below 1/√2.
 const FASTEST: f32 = 0.7;
-/// Advance in one step of a pixel that has the 70th percentile of speed, in pixels.
+/// Advance in one step of a pixel that has the 70th percentile of speed, in pixels: leaves the faster ones room up to
+/// [`FASTEST`].
 const TYPICAL: f32 = 0.45;
 /// Steps after which the band is laid anew.
 const STEPS: usize = 5;
-/// Half width of the band, in pixels: in [`STEPS`] steps nothing from farther off comes within a pixel of the line.
+/// Half width of the band, in pixels: differences reach one pixel a step, so that in [`STEPS`] steps nothing from
+/// farther off comes within a pixel of the line.
 const BAND: f32 = 6.0;
 /// Central curvature is stable up to λ dt = 1/4.
 const STABLE: f32 = 0.2;

@@ -155,8 +155,9 @@ impl Rows {
         self.above_flux.fill(0.0);
         self.above_weight.fill(0.0);
         for y in 0..z.height() {
-            energy += self.smooth(smoothness, z, y);
-            energy += self.fit(slope.row(y), offset.row(y), z.row(y));
+            self.smooth(smoothness, z, y);
+            self.fit(slope.row(y), offset.row(y), z.row(y));
+            energy += sum(&self.energy);
             visit(y, &self.gradient, &self.curvature);
             swap(&mut self.above_flux, &mut self.below_flux);
             swap(&mut self.above_weight, &mut self.below_weight);
@@ -164,8 +165,8 @@ impl Rows {
         energy
     }
 
-    /// μ Σ g of row `y`, and what flows between it, its right neighbours and the row below.
-    fn smooth(&mut self, smoothness: &Smoothness, z: &Grid<f32>, y: usize) -> f64 {
+    /// μ g along row `y`, and what flows between it, its right neighbours and the row below.
+    fn smooth(&mut self, smoothness: &Smoothness, z: &Grid<f32>, y: usize) {
         let width = z.width();
         let last_row = y + 1 == z.height();
         let here = z.row(y);
@@ -192,11 +193,10 @@ impl Rows {
         if last_row {
             below_weight.fill(0.0);
         }
-        sum(energy)
     }
 
-    /// Σ ψ² of a row; gradient and curvature of the whole energy there.
-    fn fit(&mut self, slope: &[f32], offset: &[f32], z: &[f32]) -> f64 {
+    /// Adds ψ² along a row; gradient and curvature of the whole energy there.
+    fn fit(&mut self, slope: &[f32], offset: &[f32], z: &[f32]) {
         let width = z.len();
         let (slope, offset) = (&slope[..width], &offset[..width]);
         let (flux_left, flux_right) = (&self.left_flux[..width], &self.left_flux[1..=width]);
@@ -211,12 +211,11 @@ impl Rows {
             let psi = slope[x] * rho + offset[x];
             // Minus ∂ψ/∂Z.
             let along = slope[x] * rho * rho;
-            energy[x] = psi * psi;
+            energy[x] += psi * psi;
             gradient[x] =
                 flux_left[x] + flux_above[x] - flux_right[x] - flux_below[x] - 2.0 * along * psi;
             curvature[x] = 2.0 * (along * along + left[x] + right[x] + above[x] + below[x]);
         }
-        sum(energy)
     }
 }
 

@@ -14,9 +14,9 @@ use crate::grid::Grid;
 pub(super) const REACH: f32 = 7.0;
 /// Pixels around a crossing that the band has at least, each way.
 const MARGIN: usize = REACH as usize;
-/// Down or up.
+/// Sweeps down or up: one for every pixel of [`REACH`], and one more.
 const SWEEPS: usize = 8;
-/// Pixels side by side that are in the band or not together.
+/// Pixels side by side that are in the band or not together: two vectors of the machine.
 const CELL: usize = 8;
 /// Least distance of a pixel from the zero line: φ = 0 has no sign.
 const ON_THE_LINE: f32 = 1e-3;

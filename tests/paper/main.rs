@@ -3,6 +3,7 @@
 #[path = "../solving/mod.rs"]
 mod solving;
 
+mod confidence;
 mod constraint;
 mod curves;
 mod depth;
