@@ -105,20 +105,14 @@ fn advance(z: &Grid<f32>, step: &Grid<f32>, rate: f32, trial: &mut Grid<f32>) {
     }
 }
 
-/// Rows of numbers that one row of pixels hands to the next. Those that begin with `left_` start one place further
-/// left than the frame, with a 0 for what lies beyond it.
+/// Rows of numbers, and what one row of pixels hands to the next.
 struct Rows {
-    /// Z, with the border repeated on the right.
+    /// Z with the border repeated on both sides.
     padded: Vec<f32>,
-    /// Diffusivity times difference between a pixel and its right neighbour, and the diffusivity.
-    left_flux: Vec<f32>,
-    left_weight: Vec<f32>,
-    /// The same between a pixel and its lower neighbour.
-    below_flux: Vec<f32>,
-    below_weight: Vec<f32>,
-    /// The same between a pixel and its upper neighbour.
-    above_flux: Vec<f32>,
-    above_weight: Vec<f32>,
+    /// Diffusivity of the row, one place further to the right, with a 0 for what lies beyond the frame.
+    diffusivity: Vec<f32>,
+    /// That of the row above, in the same places; 0 above the frame.
+    above: Vec<f32>,
     energy: Vec<f32>,
     gradient: Vec<f32>,
     curvature: Vec<f32>,
@@ -126,19 +120,13 @@ struct Rows {
 
 impl Rows {
     fn new(width: usize) -> Self {
-        let row = vec![0.0; width];
-        let longer = vec![0.0; width + 1];
         Self {
-            padded: longer.clone(),
-            left_flux: longer.clone(),
-            left_weight: longer,
-            below_flux: row.clone(),
-            below_weight: row.clone(),
-            above_flux: row.clone(),
-            above_weight: row.clone(),
-            energy: row.clone(),
-            gradient: row.clone(),
-            curvature: row,
+            padded: vec![0.0; width + 2],
+            diffusivity: vec![0.0; width + 1],
+            above: vec![0.0; width + 1],
+            energy: vec![0.0; width],
+            gradient: vec![0.0; width],
+            curvature: vec![0.0; width],
         }
     }
 
@@ -151,70 +139,68 @@ impl Rows {
         z: &Grid<f32>,
         mut visit: impl FnMut(usize, &[f32], &[f32]),
     ) -> f64 {
+        let (width, last) = (z.width(), z.height() - 1);
         let mut energy = 0.0;
-        self.above_flux.fill(0.0);
-        self.above_weight.fill(0.0);
-        for y in 0..z.height() {
-            self.smooth(smoothness, z, y);
-            self.fit(slope.row(y), offset.row(y), z.row(y));
+        self.above.fill(0.0);
+        for y in 0..=last {
+            self.padded[0] = z[(0, y)];
+            self.padded[1..=width].copy_from_slice(z.row(y));
+            self.padded[width + 1] = z[(width - 1, y)];
+            // The border is repeated outwards, so that differences across it are 0.
+            let (above, below) = (z.row(y.saturating_sub(1)), z.row((y + 1).min(last)));
+            self.smooth(smoothness, below);
+            self.fit(slope.row(y), offset.row(y), above, below);
+            // No difference crosses the border, so that none bends there.
+            self.curvature[width - 1] -= 2.0 * self.diffusivity[width];
+            if y == last {
+                let own = self.curvature.iter_mut().zip(&self.diffusivity[1..]);
+                own.for_each(|(curvature, d)| *curvature -= 2.0 * d);
+            }
             energy += sum(&self.energy);
             visit(y, &self.gradient, &self.curvature);
-            swap(&mut self.above_flux, &mut self.below_flux);
-            swap(&mut self.above_weight, &mut self.below_weight);
+            swap(&mut self.above, &mut self.diffusivity);
         }
         energy
     }
 
-    /// μ g along row `y`, and what flows between it, its right neighbours and the row below.
-    fn smooth(&mut self, smoothness: &Smoothness, z: &Grid<f32>, y: usize) {
-        let width = z.width();
-        let last_row = y + 1 == z.height();
-        let here = z.row(y);
-        // The border is repeated outwards, so that differences across it are 0.
-        let below = if last_row { here } else { z.row(y + 1) };
-        self.padded[..width].copy_from_slice(here);
-        self.padded[width] = here[width - 1];
-        let right = &self.padded[1..=width];
-        let right_flux = &mut self.left_flux[1..=width];
-        let right_weight = &mut self.left_weight[1..=width];
-        let below_flux = &mut self.below_flux[..width];
-        let below_weight = &mut self.below_weight[..width];
+    /// μ g along a row, and the diffusivity.
+    fn smooth(&mut self, smoothness: &Smoothness, below: &[f32]) {
+        let width = below.len();
+        let (here, right) = (&self.padded[1..=width], &self.padded[2..width + 2]);
+        let diffusivity = &mut self.diffusivity[1..=width];
         let energy = &mut self.energy[..width];
         for x in 0..width {
             let (dx, dy) = (right[x] - here[x], below[x] - here[x]);
-            let (g, diffusivity) = smoothness.at(dx * dx + dy * dy);
-            energy[x] = g;
-            right_flux[x] = diffusivity * dx;
-            right_weight[x] = diffusivity;
-            below_flux[x] = diffusivity * dy;
-            below_weight[x] = diffusivity;
-        }
-        right_weight[width - 1] = 0.0;
-        if last_row {
-            below_weight.fill(0.0);
+            (energy[x], diffusivity[x]) = smoothness.at(dx * dx + dy * dy);
         }
     }
 
     /// Adds ψ² along a row; gradient and curvature of the whole energy there.
-    fn fit(&mut self, slope: &[f32], offset: &[f32], z: &[f32]) {
-        let width = z.len();
-        let (slope, offset) = (&slope[..width], &offset[..width]);
-        let (flux_left, flux_right) = (&self.left_flux[..width], &self.left_flux[1..=width]);
-        let (left, right) = (&self.left_weight[..width], &self.left_weight[1..=width]);
-        let (flux_above, above) = (&self.above_flux[..width], &self.above_weight[..width]);
-        let (flux_below, below) = (&self.below_flux[..width], &self.below_weight[..width]);
-        let energy = &mut self.energy[..width];
-        let gradient = &mut self.gradient[..width];
-        let curvature = &mut self.curvature[..width];
-        for x in 0..width {
+    fn fit(&mut self, slope: &[f32], offset: &[f32], above: &[f32], below: &[f32]) {
+        let n = slope.len();
+        let (offset, above, below) = (&offset[..n], &above[..n], &below[..n]);
+        let (left, z, right) = (
+            &self.padded[..n],
+            &self.padded[1..=n],
+            &self.padded[2..n + 2],
+        );
+        // A pixel's differences are those to its right and lower neighbours.
+        let (of_left, own) = (&self.diffusivity[..n], &self.diffusivity[1..=n]);
+        let of_above = &self.above[1..=n];
+        let energy = &mut self.energy[..n];
+        let gradient = &mut self.gradient[..n];
+        let curvature = &mut self.curvature[..n];
+        for x in 0..n {
             let rho = z[x].recip();
             let psi = slope[x] * rho + offset[x];
             // Minus ∂ψ/∂Z.
             let along = slope[x] * rho * rho;
+            let flux = own[x] * (right[x] - z[x] + (below[x] - z[x]))
+                - of_left[x] * (z[x] - left[x])
+                - of_above[x] * (z[x] - above[x]);
             energy[x] += psi * psi;
-            gradient[x] =
-                flux_left[x] + flux_above[x] - flux_right[x] - flux_below[x] - 2.0 * along * psi;
-            curvature[x] = 2.0 * (along * along + left[x] + right[x] + above[x] + below[x]);
+            gradient[x] = -2.0 * along * psi - flux;
+            curvature[x] = 2.0 * (along * along + of_left[x] + of_above[x] + 2.0 * own[x]);
         }
     }
 }
