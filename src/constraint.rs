@@ -8,11 +8,12 @@
 //! ψ is in grey levels; (x, y) in pixels from the principal point. It is equation (1) put into
 //! Ix u + Iy v + It = 0.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use crate::camera::{Camera, RigidMotion};
 use crate::frames::Derivatives;
-use crate::grid::Grid;
 
 /// The vectors s and q at an image point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,45 +42,83 @@ impl Coefficients {
     }
 }
 
-/// Calls `visit(pixel index, slope, offset)` for every pixel, where ψ = slope · ρ + offset: the slope
-/// is s·T, the offset It + q·ω. That is all which depth and curves need to know of a motion.
-pub fn along_depth(
-    camera: &Camera,
-    derivatives: &Derivatives,
-    motion: &RigidMotion,
-    mut visit: impl FnMut(usize, f32, f32),
-) {
-    let Derivatives { ix, iy, it } = derivatives;
-    let (width, height) = (ix.width(), ix.height());
-    let f = camera.focal;
-    let (t, w) = (motion.translation, motion.rotation);
-    for py in 0..height {
-        let y = py as f64 - camera.cy;
-        for px in 0..width {
-            let x = px as f64 - camera.cx;
-            let i = py * width + px;
-            let (gx, gy) = (f64::from(ix.data()[i]), f64::from(iy.data()[i]));
-            // ∇I against the two parts of (1): cheaper than building s and q.
-            let slope = gx * (f * t.x - x * t.z) + gy * (f * t.y - y * t.z);
-            let turn_u = -x * y / f * w.x + (f + x * x / f) * w.y - y * w.z;
-            let turn_v = -(f + y * y / f) * w.x + x * y / f * w.y + x * w.z;
-            let offset = f64::from(it.data()[i]) + gx * turn_u + gy * turn_v;
-            visit(i, slope as f32, offset as f32);
-        }
-    }
+/// One motion along one row of pixels, where equation (1) is a polynomial in x:
+///
+/// ```text
+/// u = (f t1 − x t3)/Z + u0 + u1 x + u2 x²      v = (f t2 − y t3)/Z + v0 + v1 x
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct RowMotion {
+    cx: f32,
+    /// f t1, −t3 and f t2 − y t3.
+    moves: [f32; 3],
+    /// u0, u1 and u2.
+    turn_u: [f32; 3],
+    /// v0 and v1.
+    turn_v: [f32; 2],
 }
 
-/// ψ at every pixel, in grey levels, for one motion and a field of inverse depth.
-pub fn residual(
-    camera: &Camera,
-    derivatives: &Derivatives,
-    motion: &RigidMotion,
-    rho: &Grid<f32>,
-) -> Grid<f32> {
-    let mut psi = Grid::new(rho.width(), rho.height(), 0.0f32);
-    let out = psi.data_mut();
-    along_depth(camera, derivatives, motion, |i, slope, offset| {
-        out[i] = slope * rho.data()[i] + offset;
-    });
-    psi
+impl RowMotion {
+    /// `motion` along row `py`.
+    pub fn new(camera: &Camera, motion: &RigidMotion, py: usize) -> Self {
+        let (f, y) = (camera.focal, py as f64 - camera.cy);
+        let (t, w) = (motion.translation, motion.rotation);
+        Self {
+            cx: camera.cx as f32,
+            moves: [f * t.x, -t.z, f * t.y - y * t.z].map(|c| c as f32),
+            turn_u: [f * w.y - y * w.z, -y / f * w.x, w.y / f].map(|c| c as f32),
+            turn_v: [-(f + y * y / f) * w.x, y / f * w.y + w.z].map(|c| c as f32),
+        }
+    }
+
+    /// ψ = slope/Z + offset for `pixels` of row `py`: writes the slope s·T and the offset It + q·ω.
+    pub fn along_depth(
+        &self,
+        derivatives: &Derivatives,
+        py: usize,
+        pixels: Range<usize>,
+        slope: &mut [f32],
+        offset: &mut [f32],
+    ) {
+        let first = pixels.start as f32 - self.cx;
+        let n = pixels.len();
+        let Derivatives { ix, iy, it } = derivatives;
+        let [ix, iy, it] = [ix, iy, it].map(|d| &d.row(py)[pixels.clone()][..n]);
+        let (slope, offset) = (&mut slope[..n], &mut offset[..n]);
+        for i in 0..n {
+            (slope[i], offset[i]) = self.at(i as i32 as f32 + first, ix[i], iy[i], it[i]);
+        }
+    }
+
+    /// ψ for `pixels` of row `py` at depths `z`, which hold these pixels alone; in grey levels.
+    pub fn residual(
+        &self,
+        derivatives: &Derivatives,
+        py: usize,
+        pixels: Range<usize>,
+        z: &[f32],
+        psi: &mut [f32],
+    ) {
+        let first = pixels.start as f32 - self.cx;
+        let n = pixels.len();
+        let Derivatives { ix, iy, it } = derivatives;
+        let [ix, iy, it] = [ix, iy, it].map(|d| &d.row(py)[pixels.clone()][..n]);
+        let (z, psi) = (&z[..n], &mut psi[..n]);
+        for i in 0..n {
+            let (slope, offset) = self.at(i as i32 as f32 + first, ix[i], iy[i], it[i]);
+            psi[i] = slope / z[i] + offset;
+        }
+    }
+
+    /// Slope and offset at column `x`, in pixels from the principal point: ∇I against the two parts of (1), which is
+    /// cheaper than s and q.
+    #[inline]
+    fn at(&self, x: f32, ix: f32, iy: f32, it: f32) -> (f32, f32) {
+        let [m0, m1, m2] = self.moves;
+        let [u0, u1, u2] = self.turn_u;
+        let [v0, v1] = self.turn_v;
+        let slope = ix * (m0 + m1 * x) + iy * m2;
+        let offset = it + ix * (u0 + (u1 + u2 * x) * x) + iy * (v0 + v1 * x);
+        (slope, offset)
+    }
 }

@@ -70,6 +70,7 @@ mod linalg;
 pub mod motion;
 pub mod occlusion;
 pub mod options;
+pub mod paper;
 pub mod scene;
 pub mod score;
 pub mod solver;

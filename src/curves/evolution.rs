@@ -47,44 +47,15 @@ pub fn evolve(phi: &mut [Grid<f32>], xi: &[Grid<f32>], lambda: &Grid<f32>, steps
     }
 }
 
-/// Who is where: k where φk is the largest above 0, 0 outside all curves.
-pub fn labels(phi: &[Grid<f32>], width: usize, height: usize) -> Grid<u8> {
-    let mut best = Grid::new(width, height, 0.0f32);
-    let mut labels = Grid::new(width, height, 0u8);
-    for (k, phi) in phi.iter().enumerate() {
-        for ((l, b), &p) in labels
-            .data_mut()
-            .iter_mut()
-            .zip(best.data_mut())
-            .zip(phi.data())
-        {
-            if p > *b {
-                *b = p;
-                *l = k as u8 + 1;
-            }
-        }
-    }
-    labels
-}
-
-/// Length of the zero line of φ in pixels: ∫ δ(φ) |∇φ|, δ being a hat one pixel wide on each side.
-pub fn length(phi: &Grid<f32>) -> f64 {
-    weighed(phi, |_| 1.0)
-}
-
 /// What the zero line of φ costs where a pixel of it costs `lambda`, grey levels²·px.
 pub fn cost(phi: &Grid<f32>, lambda: &Grid<f32>) -> f64 {
-    weighed(phi, |at| lambda[at])
-}
-
-fn weighed(phi: &Grid<f32>, weight: impl Fn((usize, usize)) -> f32) -> f64 {
     let mut sum = 0.0;
     for y in 0..phi.height() {
         for x in 0..phi.width() {
             let p = phi[(x, y)];
             if p.abs() < 1.0 {
                 let (gx, gy) = central(phi, x, y);
-                sum += f64::from((1.0 - p.abs()) * gx.hypot(gy) * weight((x, y)));
+                sum += f64::from((1.0 - p.abs()) * gx.hypot(gy) * lambda[(x, y)]);
             }
         }
     }

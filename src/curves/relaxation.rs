@@ -14,7 +14,7 @@
 //! both are divided by λ's mean. Stops when shares move by less than [`STILL`] pixels in a step, all in all, or
 //! after [`MOST_STEPS`].
 
-use super::evolution::labels;
+use super::labels::labels;
 use super::redistance::redistance;
 use crate::grid::Grid;
 use crate::window::Window;

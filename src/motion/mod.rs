@@ -4,10 +4,8 @@ mod cholesky;
 mod eliminated;
 mod joint;
 mod kind;
-mod least_squares;
 
 pub use cholesky::solve_positive;
 pub use eliminated::{Blocks, Candidate};
 pub use joint::{Joint, JointStep, held};
 pub use kind::Kind;
-pub use least_squares::least_squares;

@@ -3,10 +3,10 @@
 
 use crate::camera::RigidMotion;
 use crate::curves::{self, Measure};
-use crate::depth;
 use crate::grid::Grid;
 use crate::interpretation::{Flow, Interpretation};
 use crate::motion::Kind;
+use crate::paper;
 use crate::warp::{Linearisation, Scale};
 
 use super::rivalry;
@@ -54,7 +54,7 @@ pub(super) fn composed(
     for (k, (layer, line)) in layers.iter().zip(&lines).enumerate() {
         let shows = layer.kind.translates();
         let slope = line.rows.map(|row| if shows { row[0] } else { 0.0 });
-        let certain = depth::confidence(&slope, measure.sigma);
+        let certain = paper::confidence(&slope, measure.sigma);
         for i in 0..labels.len() {
             if usize::from(labels.data()[i]) != k {
                 continue;

@@ -11,11 +11,11 @@
 use crate::depth::Polynomials;
 use crate::frames::blur;
 use crate::grid::Grid;
+use crate::paper::spread;
 use crate::warp::{Linearisation, RESIDUAL, Scale};
 use crate::window::Window;
 
 use super::region::Region;
-use super::weights::spread;
 
 /// Error of position granted when motion and depth are fitted, in pixels.
 const POSITION_ERROR: f32 = 0.06;

@@ -17,11 +17,11 @@ mod report;
 mod rim;
 mod rivalry;
 mod schedule;
-mod single_scale;
 mod stiffness;
 mod sweep;
 mod weights;
 
+pub(crate) use approach::Approach;
 pub use history::Status;
 pub use report::{RegionReport, Report, Seconds};
 pub use weights::Weights;
@@ -31,7 +31,6 @@ use std::rc::Rc;
 pub(crate) use approach::Approach;
 use history::{History, Stage};
 use layers::Layers;
-use single_scale::SingleScale;
 
 use crate::camera::Camera;
 use crate::curves::{Contour, Shape, contours};
@@ -41,6 +40,7 @@ use crate::frames::FramePair;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 use crate::options::{DepthMethod, MAX_CURVES, Options};
+use crate::paper::solver::Paper;
 
 /// Finds regions, motions and depth of a pair of frames.
 pub struct Solver {
@@ -257,10 +257,7 @@ fn begin(
     options: &Options,
 ) -> Box<dyn Approach> {
     match options.depth {
-        DepthMethod::Descent => {
-            Box::new(SingleScale::new(pair.clone(), camera, level_sets, options))
-        }
-        DepthMethod::Layers if std::env::var("OLD").is_ok() => Box::new(Layers::new(pair.clone(), camera, level_sets, options)),
+        DepthMethod::Descent => Box::new(Paper::new(pair.clone(), camera, level_sets, options)),
         DepthMethod::Layers => Box::new(crate::layered::Layered::new(pair.clone(), camera, level_sets, options)),
     }
 }

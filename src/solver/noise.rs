@@ -2,10 +2,10 @@
 
 use super::evidence::Evidence;
 use super::region::Region;
-use super::weights::spread;
 use crate::frames::Lighting;
 use crate::grid::Grid;
 use crate::motion::solve_positive;
+use crate::paper::spread;
 use crate::warp::{Linearisation, RESIDUAL, Scale};
 
 /// Least σ of the gradient's change: frames of 8 bits are not known better.

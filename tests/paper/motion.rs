@@ -6,7 +6,8 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 use glam::DVec3;
 use relievo::constraint::Coefficients;
 use relievo::frames::Derivatives;
-use relievo::motion::{least_squares, solve_positive};
+use relievo::motion::solve_positive;
+use relievo::paper;
 use relievo::{Camera, Grid, RigidMotion};
 
 const W: usize = 72;
@@ -51,6 +52,19 @@ fn motion(t: [f64; 3], w: [f64; 3]) -> RigidMotion {
     }
 }
 
+/// The motion of region `label`, for inverse depth `rho`.
+fn least_squares(
+    camera: &Camera,
+    derivatives: &Derivatives,
+    rho: &Grid<f32>,
+    labels: &Grid<u8>,
+    label: usize,
+    ridge: f64,
+) -> Option<RigidMotion> {
+    let z = rho.map(f32::recip);
+    paper::least_squares(camera, derivatives, &z, labels, label + 1, ridge)[label]
+}
+
 fn one_region() -> Grid<u8> {
     Grid::new(W, H, 0)
 }
@@ -86,7 +100,7 @@ fn each_region_has_the_motion_of_its_own_pixels() {
     ];
     let derivatives = obeying(&camera, &truth, &labels, &rho, 20.0);
     for (k, truth) in truth.iter().enumerate() {
-        let found = least_squares(&camera, &derivatives, &rho, &labels, k as u8, 0.0).unwrap();
+        let found = least_squares(&camera, &derivatives, &rho, &labels, k, 0.0).unwrap();
         assert!((found.translation - truth.translation).length() < 1e-6);
         assert!((found.rotation - truth.rotation).length() < 1e-6);
     }

@@ -3,12 +3,10 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-mod solving;
-
+use crate::solving::{circle, differing, pair, paper, run, small, start};
 use relievo::scene::{self, Sequence};
 use relievo::score::{compare, compare_flow};
 use relievo::{Frame, FramePair, Interpretation, Shape, Solver, Status, horn_schunck};
-use solving::{circle, differing, pair, paper, run, small, start};
 
 /// Solves a sequence from its circles; checks what the method promises.
 fn promise(name: &str, wrong: f64) -> (Sequence, Interpretation) {

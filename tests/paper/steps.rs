@@ -3,12 +3,10 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-mod solving;
-
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use crate::solving::{circle, everything, paper, small, start};
 use relievo::{Options, Shape, Status};
-use solving::{circle, everything, paper, small, start};
 
 #[test]
 fn three_single_steps_are_a_pass() {

@@ -1,0 +1,20 @@
+//! From level sets to labels.
+
+use crate::grid::Grid;
+
+/// Who is where: k where φk is the largest above 0, 0 outside all curves.
+pub fn labels(phi: &[Grid<f32>], width: usize, height: usize) -> Grid<u8> {
+    let mut labels = Grid::new(width, height, 0u8);
+    let mut highest = vec![0.0f32; width];
+    for y in 0..height {
+        highest.fill(0.0);
+        for (k, phi) in (1..).zip(phi) {
+            let row = labels.row_mut(y).iter_mut().zip(&mut highest);
+            for ((label, highest), &phi) in row.zip(phi.row(y)) {
+                *label = if phi > *highest { k } else { *label };
+                *highest = if phi > *highest { phi } else { *highest };
+            }
+        }
+    }
+    labels
+}
