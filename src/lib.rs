@@ -62,7 +62,10 @@ pub mod file;
 pub mod frames;
 pub mod grid;
 pub mod horn_schunck;
+#[allow(dead_code, unused_imports)]
+mod init;
 pub mod interpretation;
+mod linalg;
 pub mod motion;
 pub mod occlusion;
 pub mod options;
