@@ -62,9 +62,12 @@ pub mod file;
 pub mod frames;
 pub mod grid;
 pub mod horn_schunck;
+// Read by the layered solver.
 #[allow(dead_code, unused_imports)]
 mod init;
 pub mod interpretation;
+#[allow(dead_code, unused_imports)]
+mod layered;
 mod linalg;
 pub mod motion;
 pub mod occlusion;

@@ -9,12 +9,12 @@ use std::time::Instant;
 use relievo::file::flo;
 use relievo::{Flow, Frame, scene};
 
-// The modules under test are private to the crate.
+// What is measured is private to the crate, so its files are taken in here.
 mod camera {
     pub use relievo::camera::{Camera, RigidMotion};
 }
 mod frames {
-    pub use relievo::frames::halved;
+    pub use relievo::frames::{halved, halved_camera};
 }
 mod grid {
     pub use relievo::Grid;
@@ -22,6 +22,9 @@ mod grid {
 #[allow(dead_code, unused_imports)]
 #[path = "../../src/init/mod.rs"]
 mod init;
+#[allow(dead_code, unused_imports)]
+#[path = "../../src/layered/mod.rs"]
+mod layered;
 #[allow(dead_code, unused_imports)]
 #[path = "../../src/linalg/mod.rs"]
 mod linalg;
@@ -99,66 +102,91 @@ fn recorded(data: &Path, (name, numbers, flow, focal, centre): Recorded) -> Resu
     })
 }
 
-fn measure(scene: &Scene) {
-    let [first, second] = &scene.frames;
-    let clock = Instant::now();
-    let found = init::matches(first, second);
-    let t_match = clock.elapsed().as_secs_f64() * 1e3;
-    let clock = Instant::now();
-    let motion = init::epipolar_motion(&found, &scene.camera);
-    let t_motion = clock.elapsed().as_secs_f64() * 1e3;
-    let mut errors: Vec<f32> = found
-        .iter()
-        .map(|m| {
-            let at = (m.at[0] as usize, m.at[1] as usize);
-            let [u, v] = m.displacement();
-            (u - scene.flow.u[at]).hypot(v - scene.flow.v[at])
-        })
-        .filter(|e| e.is_finite())
-        .collect();
-    errors.sort_by(f32::total_cmp);
-    let bad = errors.iter().filter(|&&e| e > 1.0).count() as f32 / errors.len().max(1) as f32;
-    print!(
-        "{:22} n {:5} median {:.3} bad {:4.1}% ",
-        scene.name,
-        found.len(),
-        errors.get(errors.len() / 2).unwrap_or(&f32::NAN),
-        100.0 * bad
-    );
-    if let Some(m) = motion {
-        let t = m.motion.translation;
-        let angle = scene.motion.map_or(f64::NAN, |truth| {
-            truth.translation.angle_between(t).to_degrees()
-        });
-        print!(
-            "{:?} T [{:.3} {:.3} {:.3}] {angle:.2}° w {:.4?} sigma {:.3} inliers {:.3}",
-            m.model,
-            t.x,
-            t.y,
-            t.z,
-            m.motion.rotation.to_array(),
-            m.sigma,
-            m.inliers
-        );
+/// AEE in pixels and AAE in degrees.
+fn score(scene: &Scene, motion: &RigidMotion, rho: &Grid<f32>) -> (f64, f64) {
+    let (width, height) = (rho.width(), rho.height());
+    let mut flow = Flow {
+        u: Grid::new(width, height, 0.0),
+        v: Grid::new(width, height, 0.0),
+    };
+    for y in 0..height {
+        for x in 0..width {
+            let r = f64::from(rho[(x, y)]);
+            if let Some((u, v)) = scene.camera.displacement(motion, x as f64, y as f64, r) {
+                flow.u[(x, y)] = u as f32;
+                flow.v[(x, y)] = v as f32;
+            }
+        }
     }
-    println!(" | ms match {t_match:.1} motion {t_motion:.1}");
+    let scores = relievo::score::compare_flow(&flow, &scene.flow, None);
+    scores.ok().flatten().unwrap_or((f64::NAN, f64::NAN))
+}
+
+/// AEE after the sweep and after the refinement; `None` where the matches determine no translation.
+fn measure(scene: &Scene) -> Option<[f64; 2]> {
+    let [first, second] = &scene.frames;
+    let frames = [first, second];
+    let support = Grid::new(first.width(), first.height(), true);
+    let clock = Instant::now();
+    let ms = || clock.elapsed().as_secs_f64() * 1e3;
+    let found = init::matches(first, second);
+    let t_match = ms();
+    let motion = init::epipolar_motion(&found, &scene.camera)?;
+    let t_motion = ms();
+    let range = layered::refine::match_range(&found, &motion, &scene.camera)?;
+    let swept = layered::refine::sweep(frames, &scene.camera, &motion.motion, &support, range);
+    let t_sweep = ms();
+    let refined = layered::refine::refine(
+        frames,
+        &scene.camera,
+        &swept.motion,
+        &support,
+        swept.rho.clone(),
+    );
+    let t_dense = ms();
+    let angle = |m: &RigidMotion| {
+        scene.motion.map_or(f64::NAN, |truth| {
+            truth.translation.angle_between(m.translation).to_degrees()
+        })
+    };
+    let (sweep_aee, _) = score(scene, &swept.motion, &swept.rho);
+    let (aee, aae) = score(scene, &refined.motion, &refined.rho);
+    println!(
+        "{:22} sweep {sweep_aee:.3} dense {aee:.4} px {aae:.3}° | T {:.2}° then {:.2}° sigma {:.2} | ms match {:.0} motion {:.0} sweep {:.0} dense {:.0} all {:.0}",
+        scene.name,
+        angle(&motion.motion),
+        angle(&refined.motion),
+        refined.sigma,
+        t_match,
+        t_motion - t_match,
+        t_sweep - t_motion,
+        t_dense - t_sweep,
+        t_dense,
+    );
+    Some([sweep_aee, aee])
 }
 
 fn main() -> Result<(), Failure> {
-    let mut scenes = Vec::new();
     for name in ["flight", "columns"] {
-        scenes.push(built_in(scene::render(name, 320, 240)?));
+        measure(&built_in(scene::render(name, 320, 240)?));
     }
+    let mut drawn = Vec::new();
     for k in 0..20 {
-        scenes.push(passing(k)?);
+        drawn.extend(measure(&passing(k)?));
     }
+    let mean = |k: usize| {
+        let logarithms = drawn.iter().map(|s| s[k].ln());
+        (logarithms.sum::<f64>() / drawn.len() as f64).exp()
+    };
+    println!(
+        "passing, geometric mean: sweep {:.4} dense {:.4}",
+        mean(0),
+        mean(1)
+    );
     if let Some(data) = std::env::args().nth(1) {
         for case in RECORDED {
-            scenes.push(recorded(Path::new(&data), case)?);
+            measure(&recorded(Path::new(&data), case)?);
         }
-    }
-    for scene in &scenes {
-        measure(scene);
     }
     Ok(())
 }

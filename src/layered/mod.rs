@@ -1,0 +1,3 @@
+//! The layered solver: coarse to fine, one layer a region.
+
+pub mod refine;
