@@ -38,6 +38,14 @@ struct Scene {
     camera: Camera,
     flow: Flow,
     motion: Option<RigidMotion>,
+    region: Region,
+}
+
+/// The pixels that move as one body.
+enum Region {
+    Frame,
+    /// Those whose flow is known.
+    Known,
 }
 
 type Failure = Box<dyn std::error::Error>;
@@ -50,6 +58,7 @@ fn built_in(sequence: scene::Sequence) -> Scene {
         camera: sequence.truth.camera,
         flow: sequence.truth.flow,
         motion: Some(sequence.truth.motions[0]),
+        region: Region::Frame,
     }
 }
 
@@ -99,6 +108,11 @@ fn recorded(data: &Path, (name, numbers, flow, focal, centre): Recorded) -> Resu
         frames,
         camera,
         motion: None,
+        // The sky over Yosemite is not rigid.
+        region: match name {
+            "yosemite" => Region::Known,
+            _ => Region::Frame,
+        },
     })
 }
 
@@ -126,10 +140,14 @@ fn score(scene: &Scene, motion: &RigidMotion, rho: &Grid<f32>) -> (f64, f64) {
 fn measure(scene: &Scene) -> Option<[f64; 2]> {
     let [first, second] = &scene.frames;
     let frames = [first, second];
-    let support = Grid::new(first.width(), first.height(), true);
+    let support = match scene.region {
+        Region::Frame => Grid::new(first.width(), first.height(), true),
+        Region::Known => scene.flow.u.map(f32::is_finite),
+    };
     let clock = Instant::now();
     let ms = || clock.elapsed().as_secs_f64() * 1e3;
-    let found = init::matches(first, second);
+    let mut found = init::matches(first, second);
+    found.retain(|m| support[(m.at[0] as usize, m.at[1] as usize)]);
     let t_match = ms();
     let motion = init::epipolar_motion(&found, &scene.camera)?;
     let t_motion = ms();

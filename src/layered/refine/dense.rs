@@ -10,7 +10,7 @@
 //! e is the difference of the frames in grey levels, σ its robust spread, ψ Geman and McClure's at 3σ. ψ and φ are
 //! taken as squares with the weights of the present x, which makes the linear system of [`Lines`]. λ rises and δ falls
 //! from warp to warp: first what the start has wrong is smoothed away, then what is smooth is made smooth, while
-//! creases and steps are kept. From the second warp on, pixels near steps may change sides, see [`settle`].
+//! creases and steps are kept. From the third warp on, pixels near steps may change sides, see [`settle`].
 //!
 //! A warp changes T (|T| held) and ω too, by one Gauss–Newton step with a change of ρ eliminated in each 4×4 pixels.
 //! Pixels that are covered or leave the frame say nothing; those that leave continue what is seen. Six warps.
@@ -73,7 +73,7 @@ pub fn refine(
         let between = |[first, last]: [f32; 2]| first * (last / first).powf(share);
         let mut view = View::new(camera, &motion);
         let scale = view.pixels_a_rho(support);
-        if warp > 0 {
+        if warp > 1 {
             settle(
                 &dense.pair,
                 &view,
