@@ -7,7 +7,7 @@
 //! λ_I = λ/(1 + |∇I|/50)
 //! ```
 //!
-//! e is the difference of the frames in grey levels, σ its robust spread, ψ Geman and McClure's at 3σ. ψ and φ are
+//! e is the difference of the frames in grey levels, σ its robust spread, ψ Geman and McClure's at 2.5σ. ψ and φ are
 //! taken as squares with the weights of the present x, which makes the linear system of [`Lines`]. λ rises and δ falls
 //! from warp to warp: first what the start has wrong is smoothed away, then what is smooth is made smooth, while
 //! creases and steps are kept. From the third warp on, pixels near steps may change sides, see [`settle`].
@@ -28,9 +28,9 @@ use crate::grid::Grid;
 /// Warps.
 const WARPS: usize = 6;
 /// Warps that change the motion.
-const MOTION_WARPS: usize = 4;
+const MOTION_WARPS: usize = 3;
 /// λ at the first and the last warp, 1/px².
-const SMOOTHNESS: [f32; 2] = [30.0, 1e4];
+const SMOOTHNESS: [f32; 2] = [30.0, 5e4];
 /// δ at the first and the last warp, px.
 const CREASE: [f32; 2] = [0.15, 0.01];
 /// Gradient at which λ has halved, grey levels a pixel.
@@ -38,9 +38,11 @@ const EDGE: f32 = 50.0;
 /// Least weight of bending: nothing else holds pixels without data.
 const LEAST_BENDING: f32 = 1e-4;
 /// Shifts of the alternating directions, as shares of λ.
-const SHIFTS: [f32; 5] = [1.0, 0.1, 1e-2, 1e-3, 1e-4];
+const SHIFTS: [f32; 3] = [1.0, 0.1, 1e-2];
 /// A pixel is covered by what is nearer by more than this many pixels of image motion.
 const COVERED: f32 = 0.7;
+/// Where ψ turns, in σ.
+const CLIP: f32 = 2.5;
 /// Farthest that x goes in a warp, px: beyond, the linearisation says nothing.
 const FARTHEST: f32 = 1.0;
 
@@ -165,7 +167,7 @@ impl Dense {
 
     fn weigh_data(&mut self, view: &View, scale: f32) {
         let t = view.translation;
-        let cut = 1.0 / (3.0 * self.sigma).powi(2);
+        let cut = 1.0 / (CLIP * self.sigma).powi(2);
         let precision = 1.0 / self.sigma.powi(2);
         let [gx, gy, gz] = &self.compared.gradient;
         let data = self.bending.data.data_mut();

@@ -34,7 +34,7 @@ pub struct Lines {
     data_turned: Vec<f32>,
     across_turned: Vec<f32>,
     factors: Factors,
-    rows: [Vec<f32>; 3],
+    stress: Vec<f32>,
 }
 
 /// The factors L D Lᵀ of the pentadiagonal systems of all lines.
@@ -42,6 +42,8 @@ struct Factors {
     one: Vec<f32>,
     two: Vec<f32>,
     inverse: Vec<f32>,
+    /// Stands in for rows before the first and after the last.
+    none: Vec<f32>,
 }
 
 impl Lines {
@@ -62,8 +64,9 @@ impl Lines {
                 one: plane(),
                 two: plane(),
                 inverse: plane(),
+                none: vec![0.0; width.max(height)],
             },
-            rows: [vec![0.0; width], vec![0.0; width], vec![0.0; width]],
+            stress: vec![0.0; width],
         }
     }
 
@@ -121,7 +124,7 @@ impl Lines {
         } else {
             out.fill(0.0);
         }
-        let stress = &mut self.rows[0];
+        let stress = &mut self.stress;
         for y in 0..height {
             let (x, w) = (&x[row(y)], bending.across.row(y));
             stress[0] = 0.0;
@@ -183,52 +186,24 @@ impl Factors {
         x: &mut [f32],
     ) {
         let row = |y: usize| y * width..(y + 1) * width;
-        let none = vec![0.0f32; width];
+        let none = &self.none[..width];
         for y in 0..height {
             let (done, rest) = x.split_at_mut(y * width);
             let r = &mut rest[..width];
             let (d1, d2) = self.inverse.split_at_mut(y * width);
             let (l1, l2) = self.one.split_at_mut(y * width);
-            let (above, here) = (
-                if y > 0 {
-                    &weight[row(y - 1)]
-                } else {
-                    &none[..]
-                },
-                &weight[row(y)],
-            );
+            let (inverse, one) = (&mut d2[..width], &mut l2[..width]);
+            let two = &mut self.two[row(y)];
+            let (above, here) = (before(weight, y, 1, none), &weight[row(y)]);
             let below = if y + 1 < height {
                 &weight[row(y + 1)]
             } else {
-                &none[..]
+                none
             };
-            let (inv1, inv2) = (
-                if y > 0 { &d1[row(y - 1)] } else { &none[..] },
-                if y > 1 { &d1[row(y - 2)] } else { &none[..] },
-            );
-            let one1 = if y > 0 { &l1[row(y - 1)] } else { &none[..] };
-            let (x1, x2) = (
-                if y > 0 { &done[row(y - 1)] } else { &none[..] },
-                if y > 1 { &done[row(y - 2)] } else { &none[..] },
-            );
+            let (inv1, inv2) = (before(d1, y, 1, none), before(d1, y, 2, none));
+            let one1 = before(l1, y, 1, none);
+            let (x1, x2) = (before(done, y, 1, none), before(done, y, 2, none));
             let data = &data[row(y)];
-            let (inverse, one) = (&mut d2[..width], &mut l2[..width]);
-            let two = &mut self.two[row(y)];
-            // The first row has no neighbour above; what stands in for it is 0.
-            let (inv1, inv2, one1, x1, x2) = (
-                &inv1[..width],
-                &inv2[..width],
-                &one1[..width],
-                &x1[..width],
-                &x2[..width],
-            );
-            let (above, here, below, data) = (
-                &above[..width],
-                &here[..width],
-                &below[..width],
-                &data[..width],
-            );
-            let r = &mut r[..width];
             for i in 0..width {
                 let off2 = above[i];
                 let off1 = -2.0 * (above[i] + here[i]);
@@ -250,17 +225,27 @@ impl Factors {
             let (m1, x1) = if y + 1 < height {
                 (&self.one[row(y + 1)], &tail[..width])
             } else {
-                (&none[..], &none[..])
+                (none, none)
             };
             let (m2, x2) = if y + 2 < height {
                 (&self.two[row(y + 2)], &tail[width..2 * width])
             } else {
-                (&none[..], &none[..])
+                (none, none)
             };
             for i in 0..width {
                 here[i] = here[i] * inverse[i] - m1[i] * x1[i] - m2[i] * x2[i];
             }
         }
+    }
+}
+
+/// The row `k` before row `y`, or what stands in for it: a row of 0.
+fn before<'a>(plane: &'a [f32], y: usize, k: usize, none: &'a [f32]) -> &'a [f32] {
+    let width = none.len();
+    if y >= k {
+        &plane[(y - k) * width..(y - k + 1) * width]
+    } else {
+        none
     }
 }
 
