@@ -62,6 +62,9 @@ pub mod file;
 pub mod frames;
 pub mod grid;
 pub mod horn_schunck;
+// Read by the layered solver.
+#[allow(dead_code, unused_imports)]
+mod init;
 pub mod interpretation;
 #[doc(hidden)]
 #[allow(missing_docs)]

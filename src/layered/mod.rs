@@ -2,6 +2,7 @@
 
 mod estimate;
 mod label;
+pub mod refine;
 mod region;
 mod scale;
 mod solver;

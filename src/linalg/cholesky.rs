@@ -5,7 +5,7 @@
 /// Columns are scaled to a unit diagonal first: in a motion step they carry units as different as
 /// pixels and radians. `None` when a pivot falls below 1e-12 of its column, that is when the data
 /// leave x undetermined.
-pub(crate) fn solve_positive<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; N]> {
+pub fn solve<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; N]> {
     let mut scale = [0.0; N];
     for i in 0..N {
         if a[i][i].is_nan() || a[i][i] <= 0.0 {
@@ -41,4 +41,27 @@ pub(crate) fn solve_positive<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) ->
         x[i] *= scale[i];
     }
     Some(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::solve;
+
+    #[test]
+    fn solves_a_badly_scaled_system() {
+        let a = [[4e8, 2e3, 0.0], [2e3, 3e-2, 1e-3], [0.0, 1e-3, 5e-4]];
+        let known = [1e-4, 2.0, -30.0];
+        let b = a.map(|row| row.iter().zip(&known).map(|(a, x)| a * x).sum());
+        let found = solve(&a, &b).unwrap();
+        for (x, y) in found.iter().zip(&known) {
+            assert!((x - y).abs() < 1e-8 * y.abs(), "{x} for {y}");
+        }
+    }
+
+    #[test]
+    fn says_when_nothing_is_determined() {
+        assert_eq!(solve(&[[1.0, 1.0], [1.0, 1.0]], &[1.0, 1.0]), None);
+        assert_eq!(solve(&[[f64::NAN]], &[1.0]), None);
+        assert_eq!(solve(&[[-1.0]], &[1.0]), None);
+    }
 }

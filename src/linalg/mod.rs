@@ -5,5 +5,5 @@ mod cholesky;
 mod sphere;
 
 pub(crate) use banded::Banded;
-pub(crate) use cholesky::solve_positive;
-pub(crate) use sphere::hemisphere;
+pub use cholesky::solve;
+pub(crate) use sphere::{hemisphere, tangents};

@@ -14,7 +14,7 @@
 
 use glam::DVec3;
 
-use super::cholesky::solve_positive;
+use super::solve_positive;
 use crate::camera::{Camera, RigidMotion};
 use crate::constraint::Coefficients;
 use crate::grid::Grid;

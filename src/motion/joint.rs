@@ -25,7 +25,7 @@
 use glam::{DQuat, DVec3};
 
 use super::Kind;
-use super::cholesky::solve_positive;
+use super::solve_positive;
 use crate::camera::RigidMotion;
 use crate::depth::{Elliptic, Polynomials};
 use crate::grid::Grid;

@@ -28,7 +28,6 @@ pub use weights::Weights;
 
 use std::rc::Rc;
 
-pub(crate) use approach::Approach;
 use history::{History, Stage};
 use layers::Layers;
 

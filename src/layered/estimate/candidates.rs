@@ -11,7 +11,7 @@ use super::super::scale::Scale;
 use super::normal_equations::Support;
 use super::planar::PlanarFlow;
 use super::step::turn;
-use crate::linalg::{hemisphere, solve_positive};
+use crate::linalg::{hemisphere, solve};
 use glam::DMat3;
 
 /// Directions that are tried.
@@ -123,7 +123,7 @@ fn judge(blocks: &[Moments], direction: DVec3, epsilon: f64, turns: bool) -> Can
         b[i] = f64::from(-sums[i][3]);
     }
     let omega = if turns {
-        solve_positive(&a, &b).unwrap_or_default()
+        solve(&a, &b).unwrap_or_default()
     } else {
         [0.0; 3]
     };

@@ -9,7 +9,7 @@
 
 use super::super::scale::Scale;
 use super::normal_equations::Support;
-use crate::linalg::solve_positive;
+use crate::linalg::solve;
 
 /// Largest shift that is tried, as a share of the frame's sides.
 const REACH: f32 = 0.15;
@@ -137,7 +137,7 @@ impl PlanarFlow {
                 a[i][i] = a[i][i] * 1.0001 + 1.0;
                 b[i] = f64::from(-sums[i][8]);
             }
-            let Some(step) = solve_positive(&a, &b) else {
+            let Some(step) = solve(&a, &b) else {
                 return;
             };
             for (p, d) in self.p.iter_mut().zip(step) {

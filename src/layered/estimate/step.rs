@@ -18,7 +18,7 @@ use glam::{DMat3, DQuat, DVec3};
 use super::super::scale::Scale;
 use super::normal_equations::{NormalEquations, Pose, Support};
 use super::surface::{RHO, Surface};
-use crate::linalg::{Banded, solve_positive};
+use crate::linalg::{Banded, solve};
 use crate::options::Diffusion;
 
 /// Pull of ρ towards 1 where nothing is seen, in variances of the residual for a pixel.
@@ -335,7 +335,7 @@ fn motion_step(reduced: &[[f64; 6]; 6], full: &[[f64; 6]; 6], free: Free, varian
         a[i][i] += 1e-6 * full[i][i] + 1e-9 + if i < 2 { DAMPING * variance } else { 0.0 };
         b[i] = -reduced[i][5];
     }
-    let step = solve_positive(&a, &b).unwrap_or_default();
+    let step = solve(&a, &b).unwrap_or_default();
     let length = step[0].hypot(step[1]);
     step.map(|d| d * (LONGEST / length).min(1.0))
 }

@@ -1,0 +1,222 @@
+//! Which pixels are hidden in the second frame, and depth for them from behind.
+//!
+//! Every pixel goes to its target; where another lands on the same pixel nearer to the camera, by more than a
+//! tolerance, it is hidden, and so it is outside the frame. What hides is in front, so a hidden pixel takes the
+//! depth of the farther side: of what is seen in the eight directions within 40 pixels, the lower quarter.
+
+use super::view::View;
+use crate::grid::Grid;
+
+/// How far to look for what is seen, in pixels.
+const FARTHEST: isize = 40;
+/// The eight directions.
+const DIRECTIONS: [(isize, isize); 8] = [
+    (-1, 0),
+    (1, 0),
+    (0, -1),
+    (0, 1),
+    (1, 1),
+    (-1, -1),
+    (1, -1),
+    (-1, 1),
+];
+
+/// What arrives at each pixel of the second frame.
+pub struct Arrivals {
+    /// ρ of the nearest, `f32::MIN` where nothing arrives.
+    nearest: Grid<f32>,
+}
+
+/// What becomes of a point in the second frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// It is seen.
+    Seen,
+    /// Something nearer covers it.
+    Covered,
+    /// It leaves the frame.
+    Outside,
+}
+
+impl Arrivals {
+    /// Sends every pixel of `support` to its target.
+    pub fn new(rho: &Grid<f32>, view: &View, support: &Grid<bool>) -> Self {
+        let (width, height) = (rho.width(), rho.height());
+        let mut nearest = Grid::new(width, height, f32::MIN);
+        for y in 0..height {
+            for x in 0..width {
+                let r = rho[(x, y)];
+                if support[(x, y)]
+                    && let Some(place) = landing(view.target(x, y, r), width, height)
+                {
+                    nearest[place] = nearest[place].max(r);
+                }
+            }
+        }
+        Self { nearest }
+    }
+
+    /// What becomes of a point at inverse depth `rho` that is seen at `target`.
+    pub fn fate(&self, target: [f32; 2], rho: f32, tolerance: f32) -> Fate {
+        match landing(target, self.nearest.width(), self.nearest.height()) {
+            None => Fate::Outside,
+            Some(place) if self.nearest[place] > rho + tolerance => Fate::Covered,
+            Some(_) => Fate::Seen,
+        }
+    }
+}
+
+/// The pixel nearest to a target, if the target is on the frame.
+fn landing([x, y]: [f32; 2], width: usize, height: usize) -> Option<(usize, usize)> {
+    let on = x >= 0.0 && y >= 0.0 && x <= width as f32 - 1.0 && y <= height as f32 - 1.0;
+    on.then_some(((x + 0.5) as usize, (y + 0.5) as usize))
+}
+
+/// Which pixels of `support` are hidden, covered or outside; `tolerance` is in units of `rho`.
+pub fn hidden(rho: &Grid<f32>, view: &View, support: &Grid<bool>, tolerance: f32) -> Grid<bool> {
+    let arrivals = Arrivals::new(rho, view, support);
+    Grid::from_fn(rho.width(), rho.height(), |x, y| {
+        let r = rho[(x, y)];
+        support[(x, y)] && arrivals.fate(view.target(x, y, r), r, tolerance) != Fate::Seen
+    })
+}
+
+/// Continues ρ to pixels that leave the frame: along the row or column by which they leave, with the slope of the
+/// pixels that are seen.
+pub fn continue_outside(rho: &mut Grid<f32>, view: &View, hidden: &Grid<bool>, step: f32) {
+    /// Pixels over which the slope is taken.
+    const RUN: isize = 8;
+    let (width, height) = (rho.width() as isize, rho.height() as isize);
+    let seen = rho.clone();
+    for y in 0..height {
+        for x in 0..width {
+            let at = (x as usize, y as usize);
+            if !hidden[at] {
+                continue;
+            }
+            let [tx, ty] = view.target(at.0, at.1, seen[at]);
+            let beyond = |t: f32, side: isize| (-t).max(0.0) - (t - side as f32 + 1.0).max(0.0);
+            let (bx, by) = (beyond(tx, width), beyond(ty, height));
+            if bx == 0.0 && by == 0.0 {
+                continue;
+            }
+            let (dx, dy) = if bx.abs() > by.abs() {
+                (bx.signum() as isize, 0)
+            } else {
+                (0, by.signum() as isize)
+            };
+            let on = |k: isize| {
+                let (u, v) = (x + k * dx, y + k * dy);
+                let inside = u >= 0 && v >= 0 && u < width && v < height;
+                inside.then_some((u as usize, v as usize))
+            };
+            let mut k = 1;
+            while let Some(p) = on(k) {
+                if !hidden[p] {
+                    break;
+                }
+                k += 1;
+            }
+            let Some(first) = on(k) else { continue };
+            let slope = match on(k + RUN) {
+                Some(last) if !hidden[last] && (seen[last] - seen[first]).abs() < step => {
+                    (seen[last] - seen[first]) / RUN as f32
+                }
+                _ => 0.0,
+            };
+            rho[at] = seen[first] - slope * k as f32;
+        }
+    }
+}
+
+/// Gives hidden pixels a depth from behind.
+pub fn fill(rho: &mut Grid<f32>, hidden: &Grid<bool>) {
+    let seen = rho.clone();
+    let (width, height) = (rho.width() as isize, rho.height() as isize);
+    for y in 0..height {
+        for x in 0..width {
+            if !hidden[(x as usize, y as usize)] {
+                continue;
+            }
+            let mut around = [0.0f32; 8];
+            let mut count = 0;
+            for (dx, dy) in DIRECTIONS {
+                for k in 1..=FARTHEST {
+                    let (u, v) = (x + k * dx, y + k * dy);
+                    if u < 0 || v < 0 || u >= width || v >= height {
+                        break;
+                    }
+                    let at = (u as usize, v as usize);
+                    if !hidden[at] {
+                        around[count] = seen[at];
+                        count += 1;
+                        break;
+                    }
+                }
+            }
+            if count > 0 {
+                let around = &mut around[..count];
+                around.sort_unstable_by(f32::total_cmp);
+                rho[(x as usize, y as usize)] = around[(count - 1) / 4];
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{Camera, RigidMotion};
+    use glam::DVec3;
+
+    const SIZE: (usize, usize) = (60, 40);
+
+    /// A shift to the right by 2 px at ρ = 1.
+    fn view() -> View {
+        let camera = Camera::centred(100.0, SIZE.0, SIZE.1).unwrap();
+        let motion = RigidMotion {
+            translation: DVec3::new(0.02, 0.0, 0.0),
+            rotation: DVec3::ZERO,
+        };
+        View::new(&camera, &motion)
+    }
+
+    #[test]
+    fn what_is_covered_and_what_leaves_is_hidden() {
+        // Columns 20 to 29 move by 8 px, all else by 2: they come to lie on 28 to 37.
+        let near = |x: usize| (20..30).contains(&x);
+        let mut rho = Grid::from_fn(SIZE.0, SIZE.1, |x, _| if near(x) { 4.0 } else { 1.0 });
+        let support = Grid::new(SIZE.0, SIZE.1, true);
+        let mask = hidden(&rho, &view(), &support, 0.5);
+        let row: Vec<usize> = (0..SIZE.0).filter(|&x| mask[(x, 20)]).collect();
+        let expected: Vec<usize> = (30..36).chain(58..60).collect();
+        assert_eq!(row, expected);
+        for x in 30..36 {
+            rho[(x, 20)] = 9.0;
+        }
+        fill(&mut rho, &mask);
+        assert!((30..36).all(|x| rho[(x, 20)] == 1.0));
+        let nothing = Grid::new(SIZE.0, SIZE.1, false);
+        let mask = hidden(&rho, &view(), &nothing, 0.5);
+        assert!(mask.data().iter().all(|&m| !m));
+    }
+
+    #[test]
+    fn what_leaves_continues_the_slope() {
+        let slope = |x: usize| 3.0 + 0.02 * x as f32;
+        let truth = Grid::from_fn(SIZE.0, SIZE.1, |x, _| slope(x));
+        let support = Grid::new(SIZE.0, SIZE.1, true);
+        let mask = hidden(&truth, &view(), &support, 0.5);
+        let mut rho = Grid::from_fn(
+            SIZE.0,
+            SIZE.1,
+            |x, y| {
+                if mask[(x, y)] { 5.0 } else { slope(x) }
+            },
+        );
+        continue_outside(&mut rho, &view(), &mask, 1.0);
+        for (a, b) in rho.data().iter().zip(truth.data()) {
+            assert!((a - b).abs() < 1e-3);
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! Dense inverse depth of one rigid motion: a plane sweep for where it has steps, and its refinement.
+
+mod boundaries;
+mod census;
+mod dense;
+mod hidden;
+mod lines;
+mod motion_step;
+mod semi_global;
+mod sweep;
+mod view;
+mod warp;
+
+pub use dense::{Refined, refine};
+pub use sweep::{Sweep, match_range, sweep};

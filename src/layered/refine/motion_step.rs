@@ -1,0 +1,182 @@
+//! One Gauss–Newton step of T and ω with depth eliminated.
+//!
+//! In each block of 4×4 pixels ρ may change by one number δ. With a = ∂e/∂ρ, b = (∂e/∂T along the two directions across
+//! T, ∂e/∂ω) and m = Σ w (a, b, e)(a, b, e)ᵀ,
+//!
+//! ```text
+//! Σ_blocks (m_bb − m_ba m_ab/m_aa) step = −Σ_blocks (m_be − m_ba m_ae/m_aa)
+//! ```
+//!
+//! |T| stays. Turns of T and ω are in radians; a step is at most 0.05. w = 1/(σ² (1 + e²/4σ²)²).
+
+use glam::{DQuat, DVec3};
+
+use super::view::View;
+use super::warp::Linearisation;
+use crate::camera::RigidMotion;
+use crate::grid::Grid;
+use crate::linalg::{solve, tangents};
+
+/// Side of a block in pixels.
+const BLOCK: usize = 4;
+/// Largest step.
+const LARGEST: f64 = 0.05;
+
+/// Steps `motion`, and takes what that explains from the residuals of `compared`.
+pub fn motion_step(
+    compared: &mut Linearisation,
+    view: &View,
+    rho: &Grid<f32>,
+    sigma: f32,
+    motion: &mut RigidMotion,
+) {
+    let (width, height) = (rho.width(), rho.height());
+    let length = motion.translation.length();
+    if length <= 0.0 {
+        return;
+    }
+    let bases = tangents(motion.translation / length).map(|b| b * length);
+    let rows = Rows {
+        bases: bases.map(single),
+        translation: view.translation,
+    };
+    let mut normal = [[0.0f64; 6]; 6];
+    for top in (0..height).step_by(BLOCK) {
+        for left in (0..width).step_by(BLOCK) {
+            let mut m = [[0.0f32; 7]; 7];
+            for y in top..(top + BLOCK).min(height) {
+                for x in left..(left + BLOCK).min(width) {
+                    let i = y * width + x;
+                    if compared.compared[i] {
+                        let e = compared.residual[i];
+                        let j = rows.at(compared.gradient_at(i), view.turned(x, y), rho.data()[i]);
+                        add(&mut m, j, e, sigma);
+                    }
+                }
+            }
+            if m[0][0] > 0.0 {
+                let inverse = 1.0 / (m[0][0] * 1.001 + 1e-6);
+                for k in 1..7 {
+                    for l in 1..=k {
+                        normal[k - 1][l - 1] += f64::from(m[k][l] - m[k][0] * m[l][0] * inverse);
+                    }
+                }
+            }
+        }
+    }
+    let mut matrix = [[0.0; 5]; 5];
+    for k in 0..5 {
+        matrix[k].copy_from_slice(&normal[k][..5]);
+        matrix[k][k] = matrix[k][k] * 1.0001 + 1e-6;
+    }
+    let right = std::array::from_fn(|k| -normal[5][k]);
+    let Some(step) = solve::<5>(&matrix, &right) else {
+        return;
+    };
+    let largest = step.iter().fold(LARGEST, |most, s| most.max(s.abs()));
+    let step = step.map(|s| s * LARGEST / largest);
+    for y in 0..height {
+        for x in 0..width {
+            let i = y * width + x;
+            if compared.compared[i] {
+                let j = rows.at(compared.gradient_at(i), view.turned(x, y), rho.data()[i]);
+                let change = (0..5).map(|k| j[k + 1] * step[k] as f32).sum::<f32>();
+                compared.residual[i] += change;
+            }
+        }
+    }
+    let across = bases[0] * step[0] + bases[1] * step[1];
+    motion.translation = (motion.translation + across).normalize() * length;
+    let turn = DQuat::from_scaled_axis(DVec3::new(step[2], step[3], step[4]));
+    motion.rotation = (turn * DQuat::from_scaled_axis(motion.rotation)).to_scaled_axis();
+}
+
+fn single(v: DVec3) -> [f32; 3] {
+    v.to_array().map(|v| v as f32)
+}
+
+/// What makes a pixel's derivatives.
+struct Rows {
+    bases: [[f32; 3]; 2],
+    translation: [f32; 3],
+}
+
+impl Rows {
+    /// ∂e/∂ρ, ∂e/∂T along both bases, ∂e/∂ω.
+    fn at(&self, g: [f32; 3], p: [f32; 3], rho: f32) -> [f32; 6] {
+        let dot = |a: [f32; 3]| a[0] * g[0] + a[1] * g[1] + a[2] * g[2];
+        [
+            dot(self.translation),
+            rho * dot(self.bases[0]),
+            rho * dot(self.bases[1]),
+            p[1] * g[2] - p[2] * g[1],
+            p[2] * g[0] - p[0] * g[2],
+            p[0] * g[1] - p[1] * g[0],
+        ]
+    }
+}
+
+/// Adds a pixel to the lower triangle of its block.
+fn add(m: &mut [[f32; 7]; 7], j: [f32; 6], e: f32, sigma: f32) {
+    let weight = 1.0 / (1.0 + e * e / (4.0 * sigma * sigma));
+    let weight = weight * weight / (sigma * sigma);
+    let j = [j[0], j[1], j[2], j[3], j[4], j[5], e];
+    for k in 0..7 {
+        let w = weight * j[k];
+        for l in 0..=k {
+            m[k][l] += w * j[l];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+    use crate::layered::refine::warp::Pair;
+
+    #[test]
+    fn finds_back_to_the_motion() {
+        let (width, height) = (96, 72);
+        let camera = Camera::centred(100.0, width, height).unwrap();
+        let truth = RigidMotion {
+            translation: DVec3::new(0.02, -0.005, 0.02),
+            rotation: DVec3::new(0.002, -0.003, 0.004),
+        };
+        let texture = |[x, y]: [f32; 2]| {
+            let waves = [(0.5, 0.2), (-0.3, 0.6), (0.2, -0.7), (0.9, 0.4)];
+            let sum: f32 = waves.iter().map(|(a, b)| (a * x + b * y).sin()).sum();
+            128.0 + 25.0 * sum
+        };
+        let rho = Grid::from_fn(width, height, |x, y| {
+            1.0 + 0.4 * (0.1 * x as f32).sin() + 0.4 * (0.13 * y as f32).cos()
+        });
+        let view = View::new(&camera, &truth);
+        let first = Grid::from_fn(width, height, |x, y| {
+            texture(view.target(x, y, rho[(x, y)]))
+        });
+        let second = Grid::from_fn(width, height, |x, y| texture([x as f32, y as f32]));
+        let pair = Pair::new(&first, &second);
+        let (support, hidden) = (
+            Grid::new(width, height, true),
+            Grid::new(width, height, false),
+        );
+        let away = |m: &RigidMotion| {
+            let angle = m.translation.angle_between(truth.translation);
+            (angle.to_degrees(), (m.rotation - truth.rotation).length())
+        };
+        let mut motion = truth;
+        motion.translation = DQuat::from_rotation_y(0.06) * motion.translation;
+        motion.rotation += DVec3::new(0.0, 0.001, 0.001);
+        let length = motion.translation.length();
+        let mut compared = Linearisation::new(width * height);
+        for _ in 0..8 {
+            let view = View::new(&camera, &motion);
+            pair.linearise(&view, &rho, &support, &hidden, &mut compared);
+            motion_step(&mut compared, &view, &rho, 1.0, &mut motion);
+        }
+        let (degrees, turn) = away(&motion);
+        assert!(degrees < 0.3 && turn < 3e-4, "{degrees} {turn}");
+        assert!((motion.translation.length() - length).abs() < 1e-9);
+    }
+}
