@@ -6,6 +6,9 @@
 use crate::camera::{Camera, RigidMotion};
 use crate::grid::Grid;
 
+/// Least and greatest depth that is told, in units in which a region's mean 1/Z is 1.
+pub const NEAREST_FARTHEST: [f32; 2] = [0.02, 50.0];
+
 /// Image motion in pixels per frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flow {

@@ -53,9 +53,9 @@
 //! sentence; bad input never panics.
 
 pub mod camera;
+mod confidence;
 pub mod constraint;
 pub mod curves;
-pub mod depth;
 pub mod energy;
 pub mod error;
 pub mod file;
@@ -66,12 +66,9 @@ pub mod horn_schunck;
 #[allow(dead_code, unused_imports)]
 mod init;
 pub mod interpretation;
-#[doc(hidden)]
-#[allow(missing_docs)]
-pub mod layered;
+mod layered;
 mod linalg;
-pub mod motion;
-pub mod occlusion;
+mod motion_model;
 pub mod options;
 pub mod paper;
 pub mod scene;
@@ -80,7 +77,6 @@ pub mod solver;
 mod srgb;
 pub mod start;
 pub mod view;
-pub mod warp;
 pub mod window;
 
 pub use camera::{Camera, RigidMotion};
@@ -89,6 +85,7 @@ pub use error::Error;
 pub use frames::{Frame, FramePair};
 pub use grid::Grid;
 pub use interpretation::{Flow, Interpretation};
+pub use motion_model::MotionModel;
 pub use options::Options;
 pub use solver::{Solver, Status};
 pub use window::Window;

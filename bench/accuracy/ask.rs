@@ -12,7 +12,7 @@ pub const HELP: &str = "\
 npm run accuracy -- [NAME…] [--preset best|paper] [--seed N] [--passing] [--tsv FILE] [--data DIR]
 npm run accuracy -- --levers [NAME…] [--seed N] [--passing]
 npm run accuracy -- --starts [NAME…] [--preset best|paper] [--seed N]
-npm run accuracy -- --auto|--find|--focal|--bounds [NAME…] [--seed N] [--passing]
+npm run accuracy -- --auto|--find|--focal [NAME…] [--seed N] [--passing]
 npm run accuracy -- --export DIR [NAME…] [--seed N] [--passing]
 
 Solves the built-in sequences and 20 random variants, and says how far each result is from the truth.
@@ -28,7 +28,6 @@ NAME          only these: blocks, carousel-1003, …
 --auto        which curves are found where nobody draws any, and where `best` ends from them
 --find        the same, without solving
 --focal       which focal length is found
---bounds      how near to the truth anything could come: Cramér–Rao bounds of every region
 --export DIR  solve nothing; write frames and truth into a folder for each sequence";
 
 /// What a run does.
@@ -49,8 +48,6 @@ pub enum Work {
     },
     /// Prints which focal length is found.
     Focal,
-    /// Prints how near to the truth anything could come.
-    Bounds,
     /// Writes frames and truth.
     Export(PathBuf),
 }
@@ -98,7 +95,6 @@ impl Asked {
                 "--auto" => asked.work = Work::Automatic { solving: true },
                 "--find" => asked.work = Work::Automatic { solving: false },
                 "--focal" => asked.work = Work::Focal,
-                "--bounds" => asked.work = Work::Bounds,
                 "--passing" => asked.passing = true,
                 "--export" => asked.work = Work::Export(value()?.into()),
                 "--tsv" => asked.tsv = Some(value()?.into()),

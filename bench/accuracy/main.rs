@@ -5,7 +5,6 @@
 
 mod ask;
 mod automatic;
-mod bounds;
 mod cases;
 mod data;
 #[allow(dead_code, reason = "scenes need more of it")]
@@ -14,7 +13,6 @@ mod dice;
 mod export;
 mod figures;
 mod focal;
-mod information;
 mod levers;
 mod measure;
 mod overlap;
@@ -65,7 +63,6 @@ fn run(asked: &Asked) -> Result<(), Failure> {
         Work::Export(folder) => export(&cases, &folder)?,
         Work::Automatic { solving } => automatic::print(&cases, solving)?,
         Work::Focal => focal::print(&cases)?,
-        Work::Bounds => bounds::print(&cases)?,
         Work::Levers => levers::print(&cases)?,
         Work::Starts if asked.names.is_empty() => {
             starts::print(&starts::usual(&cases), &asked.presets)?;

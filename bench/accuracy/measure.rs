@@ -1,6 +1,6 @@
 //! One solve and how far it is from the truth, region by region.
 
-use relievo::motion::Kind;
+use relievo::MotionModel;
 use relievo::score::{Scores, compare};
 use relievo::{
     Camera, Frame, FramePair, Interpretation, Options, RigidMotion, Shape, Solver, Status,
@@ -32,9 +32,9 @@ pub struct Region {
     /// The share found.
     pub found_share: f64,
     /// What its motion truly is, as far as that shows.
-    pub truly: Kind,
+    pub truly: MotionModel,
     /// What its motion was found to be.
-    pub kind: Kind,
+    pub kind: MotionModel,
     /// The motion found.
     pub motion: RigidMotion,
     /// Where T truly shows, how it compares.
@@ -68,7 +68,7 @@ impl Figures {
                 share,
                 found_share: reported.map_or(0.0, |r| r.share),
                 truly,
-                kind: reported.map_or(Kind::Still, |r| r.kind),
+                kind: reported.map_or(MotionModel::Still, |r| r.model),
                 motion: found.motions.get(k).copied().unwrap_or_default(),
                 heading: translates.then(|| match scores.translation_angle[k] {
                     Some(angle) => Heading::Off(angle),
@@ -115,7 +115,7 @@ pub fn solve(
 }
 
 /// Region k's share of the frame, and what its true motion is as far as it shows.
-pub fn seen(truth: &Interpretation, k: usize) -> (f64, Kind) {
+pub fn seen(truth: &Interpretation, k: usize) -> (f64, MotionModel) {
     let all = truth.labels.data().iter().zip(truth.depth.data());
     let inside = all.filter(|(label, _)| usize::from(**label) == k);
     let depths: Vec<f64> = inside.map(|(_, &z)| f64::from(z)).collect();
@@ -127,7 +127,7 @@ pub fn seen(truth: &Interpretation, k: usize) -> (f64, Kind) {
         ..truth.motions[k]
     };
     let share = depths.len() as f64 / truth.labels.len() as f64;
-    (share, Kind::seen(&truth.camera, &scaled))
+    (share, MotionModel::seen(&truth.camera, &scaled))
 }
 
 fn rise(history: &[f64]) -> f64 {

@@ -1,7 +1,7 @@
 //! Figures as text: Markdown tables, and words for what is not a number.
 
 use relievo::Status;
-use relievo::motion::Kind;
+use relievo::MotionModel;
 use relievo::options::Preset;
 
 use crate::measure::{Figures, Heading, Region};
@@ -52,12 +52,12 @@ pub fn true_kinds(figures: &Figures) -> String {
     figures.regions.iter().map(|r| letter(r.truly)).collect()
 }
 
-fn letter(kind: Kind) -> char {
+fn letter(kind: MotionModel) -> char {
     match kind {
-        Kind::Still => 'S',
-        Kind::Rotation => 'R',
-        Kind::Translation => 'T',
-        Kind::Full => 'F',
+        MotionModel::Still => 'S',
+        MotionModel::Rotation => 'R',
+        MotionModel::Translation => 'T',
+        MotionModel::Full => 'F',
     }
 }
 

@@ -20,6 +20,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::matches::Match;
 use super::rotation::{rotation_alone, turned};
+use crate::motion_model::MotionModel;
 use crate::camera::{Camera, RigidMotion};
 use crate::linalg::{hemisphere, solve, tangents};
 
@@ -39,17 +40,6 @@ const STEPS: usize = 11;
 const FEWEST: usize = 12;
 /// A median motion below this, in pixels, is no motion.
 const STILL: f64 = 0.15;
-
-/// What the matches say about the motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MotionModel {
-    /// Most matches stay where they are.
-    Still,
-    /// A rotation explains most of them, so that depth is not observable.
-    Rotation,
-    /// Translation and rotation.
-    Full,
-}
 
 /// A motion and how well it explains the matches.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,5 +8,5 @@ mod matches;
 mod rotation;
 
 pub use box_mean::{box_mean, less_box_mean};
-pub use epipolar::{EpipolarMotion, MotionModel, epipolar_motion};
+pub use epipolar::{EpipolarMotion, epipolar_motion};
 pub use matches::{Match, matches};

@@ -1,18 +1,21 @@
 //! What is known of one region.
 
 use super::estimate::{NormalEquations, Outcome, PlanarFlow, State, Surface};
-use super::label::LENGTH_OF_PULL;
+use crate::grid::Grid;
+use crate::motion_model::MotionModel;
 use crate::window::Window;
 
 /// One region: the background or the inside of a curve.
-pub(crate) struct Region {
+pub(super) struct Region {
     /// Its image motion as a plane, before depth is looked for.
     pub flow: PlanarFlow,
     /// Its motion and surface.
     pub state: State,
-    pub model: crate::motion::Kind,
-    /// Other models that explain it nearly as well.
-    pub alternatives: Vec<(crate::motion::Kind, State)>,
+    pub model: MotionModel,
+    /// Other models and directions that explain it nearly as well.
+    pub alternatives: Vec<(MotionModel, State)>,
+    /// Whether one of them explains it as well.
+    pub ambiguous: bool,
     /// What the last step left.
     pub outcome: Outcome,
     pub equations: NormalEquations,
@@ -22,24 +25,28 @@ pub(crate) struct Region {
     pub window: Option<Window>,
     /// The same around what it owns and what is offered to it.
     pub reach: Option<Window>,
-    /// Whether a second explanation, its mirror image, fits as well.
-    pub ambiguous: bool,
+    /// ρ pixel by pixel at the frame's size, where depth has steps.
+    pub dense: Option<Grid<f32>>,
+    /// Whether it hides a part of the background.
+    pub hides: bool,
 }
 
 impl Region {
+    /// Nothing is known yet.
     pub fn new(surface: Surface) -> Self {
-        let _ = LENGTH_OF_PULL;
         Self {
             flow: PlanarFlow::default(),
             state: State::still(surface),
-            model: crate::motion::Kind::Full,
+            model: MotionModel::Full,
             alternatives: Vec::new(),
+            ambiguous: false,
             outcome: Outcome::default(),
             equations: NormalEquations::default(),
             fresh: false,
             window: None,
             reach: None,
-            ambiguous: false,
+            dense: None,
+            hides: false,
         }
     }
 }

@@ -1,6 +1,11 @@
 //! Every option, in one list.
 
+use super::Preset;
 use super::descriptor::{Choice, Control, Descriptor};
+
+const BOTH: &[Preset] = Preset::ALL;
+const BEST: &[Preset] = &[Preset::Best];
+const PAPER: &[Preset] = &[Preset::Paper];
 
 const fn number(min: f64, max: f64, logarithmic: bool) -> Control {
     Control::Number {
@@ -20,20 +25,8 @@ const fn weight(max: f64) -> Control {
     }
 }
 
-const fn toggle(
-    key: &'static str,
-    label: &'static str,
-    meaning: &'static str,
-    term: &'static str,
-) -> Descriptor {
-    Descriptor {
-        key,
-        label,
-        meaning,
-        term,
-        unit: "",
-        control: Control::Toggle,
-    }
+const fn count(max: f64) -> Control {
+    Control::Integer { min: 1.0, max }
 }
 
 /// Every option in the order in which a form should show it.
@@ -48,22 +41,25 @@ static CATALOGUE: &[Descriptor] = &[
         meaning: "How much smooth depth counts against fitting the frames.",
         term: "μ g(‖∇Z‖) in (7)",
         unit: "grey levels²",
-        control: weight(1e6),
+        presets: BOTH,
+        control: weight(1e9),
     },
     Descriptor {
         key: "lambda",
         label: "Length λ",
-        meaning: "How much a pixel of curve costs: larger gives shorter, smoother outlines.",
+        meaning: "What a pixel of curve costs. Larger values give shorter, smoother outlines.",
         term: "λ ∮ds in (7)",
         unit: "grey levels²·px",
+        presets: BOTH,
         control: weight(1e6),
     },
     Descriptor {
         key: "diffusion",
         label: "Diffusion",
-        meaning: "What smooths depth: a function that keeps depth edges, or one that blurs them.",
+        meaning: "The function that smooths depth: one keeps depth edges, the other blurs them.",
         term: "g in (7)",
         unit: "",
+        presets: BOTH,
         control: Control::Choice {
             choices: &[
                 Choice {
@@ -80,29 +76,56 @@ static CATALOGUE: &[Descriptor] = &[
     Descriptor {
         key: "epsilon",
         label: "Edge scale ε",
-        meaning: "Depth gradient from which (11) takes a step for an edge; a region's mean inverse depth is 1.",
+        meaning: "Where (11) begins to treat a change of depth as an edge. Mean inverse depth of a region is 1.",
         term: "g(r/ε) in (7)",
         unit: "1/px",
-        control: number(1e-3, 10.0, true),
+        presets: BOTH,
+        control: number(1e-4, 10.0, true),
     },
     Descriptor {
-        key: "motion",
-        label: "Motion step",
-        meaning: "How a region's T and ω are found. With one depth field for all regions it is held fixed.",
+        key: "smoothing",
+        label: "Smoothing",
+        meaning: "Standard deviation of the Gaussian that smooths both frames first.",
+        term: "ψ in (7)",
+        unit: "px",
+        presets: BOTH,
+        control: number(0.0, 5.0, false),
+    },
+    Descriptor {
+        key: "lighting",
+        label: "Brightness change",
+        meaning: "Allow for a gain and an offset of brightness between the frames. A change starts the solve anew.",
+        term: "ψ in (7)",
+        unit: "",
+        presets: BEST,
+        control: Control::Toggle,
+    },
+    Descriptor {
+        key: "model_selection",
+        label: "Model selection",
+        meaning: "Give each region the simplest of still, rotation, translation and full motion that explains it nearly as well as the best.",
         term: "step 1",
         unit: "",
-        control: Control::Choice {
-            choices: &[
-                Choice {
-                    value: "least-squares",
-                    label: "least squares, depth fixed",
-                },
-                Choice {
-                    value: "joint",
-                    label: "depth eliminated",
-                },
-            ],
-        },
+        presets: BEST,
+        control: Control::Toggle,
+    },
+    Descriptor {
+        key: "occlusion",
+        label: "Occlusion",
+        meaning: "Charge a constant, not the residual, where a region in front covers the place that a pixel goes to.",
+        term: "ξ in (17)",
+        unit: "",
+        presets: BEST,
+        control: Control::Toggle,
+    },
+    Descriptor {
+        key: "discontinuities",
+        label: "Depth discontinuities",
+        meaning: "At last, look for depth pixel by pixel in regions whose depth has steps.",
+        term: "step 2",
+        unit: "",
+        presets: BEST,
+        control: Control::Toggle,
     },
     Descriptor {
         key: "rotation_ridge",
@@ -110,121 +133,17 @@ static CATALOGUE: &[Descriptor] = &[
         meaning: "Pull of f·ω towards 0, which a small region cannot tell from translation; a share of the mean diagonal of the normal equations.",
         term: "step 1",
         unit: "",
+        presets: PAPER,
         control: number(0.0, 1.0, true),
     },
-    Descriptor {
-        key: "depth",
-        label: "Depth step",
-        meaning: "How depth is found.",
-        term: "step 2",
-        unit: "",
-        control: Control::Choice {
-            choices: &[
-                Choice {
-                    value: "descent",
-                    label: "descent (9), one field",
-                },
-                Choice {
-                    value: "layers",
-                    label: "1/Z, a field per region",
-                },
-            ],
-        },
-    },
-    toggle(
-        "bodies",
-        "Bodies from patches",
-        "Let each curve start on the body that it is drawn on, as far as small patches show where that ends. Coarse to fine only.",
-        "step 3",
-    ),
-    toggle(
-        "search",
-        "Search directions",
-        "Look for T over the whole sphere of directions, depth eliminated, before it is refined. Coarse to fine only.",
-        "step 1",
-    ),
-    toggle(
-        "choose_kind",
-        "Choose kinds",
-        "Take the simplest of still, rotation, translation and full motion that explains a region nearly as well as the best. Coarse to fine only.",
-        "step 1",
-    ),
-    toggle(
-        "robust",
-        "Robust fit",
-        "Count large residuals less than their square when motion and depth are fitted. Coarse to fine only.",
-        "ψ in (7)",
-    ),
-    toggle(
-        "normalised",
-        "Fair competition",
-        "Let regions compete in units of each residual's uncertainty, so that strong texture does not out-vote weak. Coarse to fine only.",
-        "ξ in (17)",
-    ),
-    toggle(
-        "lighting",
-        "Light may change",
-        "Allow for a gain and an offset between the frames, and for smooth changes of brightness over each region. Switching it starts anew. Coarse to fine only.",
-        "ψ in (7)",
-    ),
-    toggle(
-        "gradients",
-        "Gradients compete",
-        "Until curves have settled, let regions compete for a pixel by the gradient of brightness as well, which tells texture from a change of light. Coarse to fine only.",
-        "ξ in (17)",
-    ),
-    toggle(
-        "occlusion",
-        "Excuse the hidden",
-        "Charge a constant, not the residual, where a region in front covers the place that a pixel goes to. Coarse to fine only.",
-        "ξ in (17)",
-    ),
-    toggle(
-        "islands",
-        "No islands",
-        "Keep curves in one piece: islands and small holes go. Coarse to fine only.",
-        "step 3",
-    ),
-    toggle(
-        "partition",
-        "Least partition",
-        "Draw in at once, twice, what is not worth its outline, instead of step by step. Coarse to fine only.",
-        "step 3",
-    ),
-    toggle(
-        "growth",
-        "Growth",
-        "Fit each region to what lies around it as well, and let it keep whatever then makes (7) clearly smaller: it wins back what another has bent its depth after. Coarse to fine only.",
-        "step 3",
-    ),
-    toggle(
-        "sweep",
-        "Sweep of depths",
-        "Where a region's depth does not explain its pixels, as behind a thing that stands before another, try every depth there. Coarse to fine only.",
-        "step 2",
-    ),
-    toggle(
-        "edges",
-        "Edges of brightness",
-        "Let outlines cost less, and the background's depth step, where brightness has an edge: what motion leaves open is decided there. Coarse to fine only.",
-        "λ ∮ds and g(‖∇Z‖) in (7)",
-    ),
-    toggle(
-        "cross_validation",
-        "Cross-validation",
-        "Once all stands still, hold motions, and give each region the smoothness that best foretells pixels left out of its fit. Coarse to fine only, where μ is chosen from the data.",
-        "μ in (7)",
-    ),
     Descriptor {
         key: "depth_steps",
         label: "Depth steps",
         meaning: "Steps of (9) in a pass.",
         term: "step 2",
         unit: "",
-        control: Control::Integer {
-            min: 1.0,
-            max: 1000.0,
-        },
+        presets: PAPER,
+        control: count(1000.0),
     },
     Descriptor {
         key: "curve_steps",
@@ -232,29 +151,17 @@ static CATALOGUE: &[Descriptor] = &[
         meaning: "Steps of (17) in a pass.",
         term: "step 3",
         unit: "",
-        control: Control::Integer {
-            min: 1.0,
-            max: 1000.0,
-        },
-    },
-    Descriptor {
-        key: "smoothing",
-        label: "Smoothing",
-        meaning: "Standard deviation of the Gaussian that both frames are smoothed with before they are differentiated.",
-        term: "ψ in (7)",
-        unit: "px",
-        control: number(0.0, 5.0, false),
+        presets: PAPER,
+        control: count(1000.0),
     },
     Descriptor {
         key: "max_passes",
         label: "Most passes",
-        meaning: "Passes after which the solver stops even if curves still move.",
+        meaning: "The solver stops after so many passes even if curves still move.",
         term: "stopping",
         unit: "",
-        control: Control::Integer {
-            min: 1.0,
-            max: 10000.0,
-        },
+        presets: BOTH,
+        control: count(10000.0),
     },
     Descriptor {
         key: "tolerance",
@@ -262,6 +169,7 @@ static CATALOGUE: &[Descriptor] = &[
         meaning: "Share of pixels that may change region in a pass that still counts as standing still.",
         term: "stopping",
         unit: "",
+        presets: BOTH,
         control: number(0.0, 0.1, true),
     },
 ];

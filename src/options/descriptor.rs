@@ -3,6 +3,7 @@
 use serde::Serialize;
 use serde_json::Value;
 
+use super::Preset;
 use super::catalogue::catalogue;
 use crate::error::Error;
 
@@ -59,6 +60,8 @@ pub struct Descriptor {
     pub term: &'static str,
     /// Unit, empty when it has none.
     pub unit: &'static str,
+    /// The presets that it has an effect under.
+    pub presets: &'static [Preset],
     /// Its kind and range.
     #[serde(flatten)]
     pub control: Control,

@@ -44,26 +44,6 @@ impl Preset {
     }
 }
 
-/// How step 1 finds a region's motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum MotionMethod {
-    /// Least squares for (T, ω) with depth held fixed.
-    LeastSquares,
-    /// Gauss–Newton for (T, ω) with depth eliminated; only with a depth field per region.
-    Joint,
-}
-
-/// How step 2 finds depth.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DepthMethod {
-    /// Descent on Z, equation (9): one scale, one field.
-    Descent,
-    /// A linear system in 1/Z, coarse to fine: a field per region.
-    Layers,
-}
-
 /// The function g that smooths depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -77,56 +57,32 @@ pub enum Diffusion {
 /// All settings of a solver.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Options {
-    /// What the other settings started from.
+    /// Which solver, and what the other settings started from.
     pub preset: Preset,
-    /// Step 1.
-    pub motion: MotionMethod,
-    /// Step 2.
-    pub depth: DepthMethod,
-    /// g of the smoothness term.
-    pub diffusion: Diffusion,
     /// μ, or from the data.
     pub mu: Option<f64>,
     /// λ, or from the data.
     pub lambda: Option<f64>,
+    /// g of the smoothness term.
+    pub diffusion: Diffusion,
     /// ε of g(r/ε).
     pub epsilon: f64,
-    /// Standard deviation of the Gaussian that both frames are smoothed with.
+    /// Standard deviation of the Gaussian that both frames are smoothed with, pixels.
     pub smoothing: f64,
-    /// Ridge on f·ω, as a share of the mean diagonal of the normal equations.
-    pub rotation_ridge: f64,
-    /// Descent steps of depth in a pass.
-    pub depth_steps: usize,
-    /// Steps of the curves in a pass.
-    pub curve_steps: usize,
-    /// Whether curves start on the bodies that they are drawn on.
-    pub bodies: bool,
-    /// Whether directions of T are searched over the whole sphere.
-    pub search: bool,
-    /// Whether the simplest kind of motion that explains a region is chosen.
-    pub choose_kind: bool,
-    /// Whether large residuals count less than their square.
-    pub robust: bool,
-    /// Whether regions compete in units of each residual's uncertainty.
-    pub normalised: bool,
-    /// Whether brightness may change between the frames.
+    /// `best`: whether brightness may change between the frames by a gain and an offset.
     pub lighting: bool,
-    /// Whether gradients compete besides brightness until curves have settled.
-    pub gradients: bool,
-    /// Whether hidden pixels are excused from the competition.
+    /// `best`: whether the simplest motion model that explains a region is selected.
+    pub model_selection: bool,
+    /// `best`: whether occluded pixels are charged a constant.
     pub occlusion: bool,
-    /// Whether a curve bounds one thing, without islands.
-    pub islands: bool,
-    /// Whether curves are taken to the least partition before (17) moves them.
-    pub partition: bool,
-    /// Whether regions are tried with what lies around them.
-    pub growth: bool,
-    /// Whether depth that the frames refute is sought anew.
-    pub sweep: bool,
-    /// Whether outlines cost less, and the background's depth may step, on edges of brightness.
-    pub edges: bool,
-    /// Whether each region takes the smoothness that best foretells pixels left out.
-    pub cross_validation: bool,
+    /// `best`: whether depth discontinuities are looked for at last, pixel by pixel.
+    pub discontinuities: bool,
+    /// `paper`: ridge on f·ω, as a share of the mean diagonal of the normal equations.
+    pub rotation_ridge: f64,
+    /// `paper`: descent steps of depth in a pass.
+    pub depth_steps: usize,
+    /// `paper`: steps of the curves in a pass.
+    pub curve_steps: usize,
     /// Passes after which the solver gives up.
     pub max_passes: usize,
     /// Share of pixels that may still change region in a pass that counts as still.
@@ -142,59 +98,23 @@ impl Default for Options {
 impl Options {
     /// The settings of a preset.
     pub fn preset(preset: Preset) -> Self {
-        match preset {
-            Preset::Best => Self {
-                motion: MotionMethod::Joint,
-                depth: DepthMethod::Layers,
-                epsilon: 3e-3,
-                smoothing: 0.5,
-                bodies: true,
-                search: true,
-                choose_kind: true,
-                robust: true,
-                normalised: true,
-                lighting: true,
-                gradients: true,
-                occlusion: true,
-                islands: true,
-                partition: true,
-                growth: true,
-                sweep: true,
-                edges: true,
-                cross_validation: true,
-                max_passes: 60,
-                preset,
-                ..Self::preset(Preset::Paper)
-            },
-            Preset::Paper => Self {
-                preset,
-                motion: MotionMethod::LeastSquares,
-                depth: DepthMethod::Descent,
-                diffusion: Diffusion::Anisotropic,
-                mu: None,
-                lambda: None,
-                epsilon: 0.05,
-                smoothing: 1.0,
-                rotation_ridge: 0.1,
-                depth_steps: 20,
-                curve_steps: 20,
-                bodies: false,
-                search: false,
-                choose_kind: false,
-                robust: false,
-                normalised: false,
-                lighting: false,
-                gradients: false,
-                occlusion: false,
-                islands: false,
-                partition: false,
-                growth: false,
-                sweep: false,
-                edges: false,
-                cross_validation: false,
-                max_passes: 150,
-                tolerance: 2e-4,
-            },
+        let best = preset == Preset::Best;
+        Self {
+            preset,
+            mu: None,
+            lambda: None,
+            diffusion: Diffusion::Anisotropic,
+            epsilon: if best { 1e-3 } else { 0.05 },
+            smoothing: if best { 0.7 } else { 1.0 },
+            lighting: best,
+            model_selection: best,
+            occlusion: best,
+            discontinuities: best,
+            rotation_ridge: if best { 0.0 } else { 0.1 },
+            depth_steps: 20,
+            curve_steps: 20,
+            max_passes: if best { 60 } else { 150 },
+            tolerance: if best { 1e-3 } else { 2e-4 },
         }
     }
 

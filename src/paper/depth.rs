@@ -17,10 +17,8 @@ use std::mem::swap;
 use super::rows::{least, most, sum};
 use super::smoothness::Smoothness;
 use crate::grid::Grid;
+use crate::interpretation::NEAREST_FARTHEST;
 
-/// Depth is kept between these, in units in which a region's mean 1/Z is 1: beyond, a pixel moves less than a fiftieth or
-/// more than fifty times as far as its region, which only noise claims.
-pub const NEAREST_FARTHEST: [f32; 2] = [0.02, 50.0];
 /// Greatest change of a pixel in one step, as a share of its depth: a/Z is far from its tangent beyond.
 const LARGEST_CHANGE: f32 = 0.2;
 /// Least share of a full step that is tried.

@@ -19,7 +19,6 @@
 //! The constraint ψ itself is in [`constraint`](crate::constraint). `rows.rs` holds sums along rows of pixels:
 //! grids and products are `f32`, what is summed over more than a row is `f64`.
 
-mod confidence;
 mod curves;
 mod depth;
 mod energy;
@@ -28,14 +27,13 @@ mod psi;
 mod redistance;
 mod rows;
 mod smoothness;
-pub(crate) mod solver;
+mod solver;
 mod weights;
 
-pub use confidence::confidence;
 pub use curves::{CurveEvolution, Residuals};
-pub use depth::{DepthDescent, NEAREST_FARTHEST};
+pub use depth::DepthDescent;
 pub use energy::energy;
 pub use motion::least_squares;
 pub use psi::Psi;
 pub use smoothness::Smoothness;
-pub(crate) use weights::spread;
+pub(crate) use solver::Paper;

@@ -11,7 +11,7 @@ use super::rows::{dot, runs};
 use crate::camera::{Camera, RigidMotion};
 use crate::frames::Derivatives;
 use crate::grid::Grid;
-use crate::motion::solve_positive;
+use crate::linalg::solve as solve_positive;
 
 /// Relative weight that keeps a region without gradients solvable: its motion is 0.
 const FLOOR: f64 = 1e-9;

@@ -5,9 +5,8 @@
 
 use std::rc::Rc;
 
-use super::confidence::confidence;
 use super::curves::{CurveEvolution, Residuals};
-use super::depth::{DepthDescent, NEAREST_FARTHEST};
+use super::depth::DepthDescent;
 use super::energy::energy;
 use super::motion::least_squares;
 use super::psi::Psi;
@@ -15,14 +14,15 @@ use super::rows::{least, most, runs};
 use super::smoothness::Smoothness;
 use super::weights::{Noise, spread};
 use crate::camera::{Camera, RigidMotion};
+use crate::confidence::confidence;
 use crate::curves;
 use crate::energy::Energy;
 use crate::frames::{Derivatives, FramePair, blur};
 use crate::grid::Grid;
-use crate::interpretation::{Flow, Interpretation};
-use crate::motion::Kind;
+use crate::interpretation::{Flow, Interpretation, NEAREST_FARTHEST};
+use crate::motion_model::MotionModel;
 use crate::options::Options;
-use crate::solver::{Approach, Weights};
+use crate::solver::{Approach, Next, RegionState, Weights};
 
 /// Curves, motions and depth, and what they are judged by.
 pub(crate) struct Paper {
@@ -120,7 +120,7 @@ impl Paper {
         let Some(noise) = self.noise else {
             return Grid::new(width, height, 0.0);
         };
-        let seen = |motion| Kind::seen(&self.camera, motion).translates();
+        let seen = |motion| MotionModel::seen(&self.camera, motion).translates();
         let shows: Vec<bool> = self.motions.iter().map(seen).collect();
         let labels = self.labels.data();
         let hide = |grid: &mut Grid<f32>| {
@@ -202,17 +202,17 @@ impl Approach for Paper {
 
     /// Chooses μ again once all stands still: residuals are smaller by then, and so is what smoothness
     /// must outweigh.
-    fn end_pass(&mut self, still: bool, options: &Options) -> bool {
+    fn end_pass(&mut self, _changed: f64, still: bool, options: &Options) -> Next {
         if !still {
-            return false;
+            return Next::Again;
         }
         let sigma = self.sigma();
         let Some(noise) = &mut self.noise else {
-            return false;
+            return Next::Done;
         };
         let tighter = noise.tighten(sigma);
         self.weights = noise.weights(options);
-        tighter
+        if tighter { Next::Another } else { Next::Done }
     }
 
     /// What was chosen from the data stays as it is, so that energies remain comparable.
@@ -231,6 +231,12 @@ impl Approach for Paper {
         self.motions
             .resize(level_sets.len() + 1, RigidMotion::default());
         self.phi = level_sets;
+    }
+
+    /// Curves and depth stay where they are.
+    fn advance(&mut self, pair: Rc<FramePair>, options: &Options) {
+        self.derivatives = differentiate(&pair, options.smoothing);
+        self.pair = pair;
     }
 
     fn energy(&self, options: &Options) -> Energy {
@@ -252,25 +258,18 @@ impl Approach for Paper {
         self.phi.clone()
     }
 
-    fn motions(&self) -> Vec<(RigidMotion, Kind)> {
-        let seen = |&motion| (motion, Kind::seen(&self.camera, &motion));
-        self.motions.iter().map(seen).collect()
-    }
-
-    fn behind(&self) -> Vec<Vec<usize>> {
-        Vec::new()
+    fn regions(&self) -> Vec<RegionState> {
+        let state = |&motion| RegionState {
+            motion,
+            model: MotionModel::seen(&self.camera, &motion),
+            ambiguous: false,
+            in_front_of: Vec::new(),
+        };
+        self.motions.iter().map(state).collect()
     }
 
     fn weights(&self) -> Weights {
         self.weights
-    }
-
-    fn scale(&self) -> (usize, usize) {
-        (0, 1)
-    }
-
-    fn flat(&self) -> bool {
-        false
     }
 
     fn interpretation(&self, _options: &Options) -> Interpretation {

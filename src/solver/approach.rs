@@ -2,14 +2,39 @@
 //!
 //! The solver knows when a step is due and when to stop; an approach knows what is kept between steps.
 
+use std::rc::Rc;
+
+use super::report::Expected;
+use super::weights::Weights;
 use crate::camera::RigidMotion;
 use crate::energy::Energy;
+use crate::frames::FramePair;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
-use crate::motion::Kind;
+use crate::motion_model::MotionModel;
 use crate::options::Options;
 
-use super::weights::Weights;
+/// What follows a pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Next {
+    /// More of the same.
+    Again,
+    /// Something else, under which energies do not compare with those before: a finer scale, other weights.
+    Another,
+    /// Nothing.
+    Done,
+}
+
+/// What is estimated of a region.
+#[derive(Clone, Debug)]
+pub(crate) struct RegionState {
+    pub motion: RigidMotion,
+    pub model: MotionModel,
+    /// Whether another motion explains the region as well.
+    pub ambiguous: bool,
+    /// Labels of the regions that it hides a part of.
+    pub in_front_of: Vec<usize>,
+}
 
 /// One way to carry out the three steps.
 pub(crate) trait Approach {
@@ -22,15 +47,18 @@ pub(crate) trait Approach {
     /// Step 3.
     fn move_curves(&mut self, options: &Options);
 
-    /// Ends a pass. `still` says that curves and energy have stood still for long enough, or been to and fro; returns
-    /// whether there is something more to do all the same, such as a finer scale.
-    fn end_pass(&mut self, still: bool, options: &Options) -> bool;
+    /// Ends a pass in which the share `changed` of all pixels changed region; `still` says that curves and energy
+    /// have stood still for long enough.
+    fn end_pass(&mut self, changed: f64, still: bool, options: &Options) -> Next;
 
     /// Settings have changed.
     fn reconsider(&mut self, options: &Options);
 
     /// Curves have been drawn anew: level sets of the frame's size.
     fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>, options: &Options);
+
+    /// The second frame has become the first of another pair: start from what is known.
+    fn advance(&mut self, pair: Rc<FramePair>, options: &Options);
 
     /// The terms of (7).
     fn energy(&self, options: &Options) -> Energy;
@@ -41,30 +69,21 @@ pub(crate) trait Approach {
     /// The curves as level sets of the frame's size.
     fn level_sets(&self) -> Vec<Grid<f32>>;
 
-    /// The motion of each region and what kind it is.
-    fn motions(&self) -> Vec<(RigidMotion, Kind)>;
-
-    /// For each region those of which it hides a part; empty as long as nobody has asked.
-    fn behind(&self) -> Vec<Vec<usize>>;
+    /// Every region, the background first.
+    fn regions(&self) -> Vec<RegionState>;
 
     /// The weights in force.
     fn weights(&self) -> Weights;
 
     /// The scale at work, 0 the finest, and the number of scales.
-    fn scale(&self) -> (usize, usize);
-
-    /// Whether curves are where they should be, to the pixel, so that other weights and another ξ hold.
-    fn settled(&self) -> bool {
-        false
+    fn scale(&self) -> (usize, usize) {
+        (0, 1)
     }
 
-    /// Whether motions are held by now, so that other weights hold for depth.
-    fn rests(&self) -> bool {
-        false
+    /// How good labels and flow are expected to be; `None` where that is not known.
+    fn expected(&self) -> Option<Expected> {
+        None
     }
-
-    /// Whether regions are taken for flat as yet, so that step 2 leaves depth alone.
-    fn flat(&self) -> bool;
 
     /// What the frames are taken for, at the frame's size.
     fn interpretation(&self, options: &Options) -> Interpretation;

@@ -4,42 +4,29 @@
 //! motion → depth → curves, and ends with the curves, taken singly or not; `history.rs` says when it stops.
 
 mod approach;
-mod choice;
-mod composition;
-mod evidence;
-mod fit;
 mod history;
-mod layers;
-mod leap;
-mod noise;
-mod region;
 mod report;
-mod rim;
-mod rivalry;
-mod schedule;
-mod stiffness;
-mod sweep;
 mod weights;
 
-pub(crate) use approach::Approach;
+pub(crate) use approach::{Approach, Next, RegionState};
 pub use history::Status;
-pub use report::{RegionReport, Report, Seconds};
+pub use report::{Expected, RegionReport, Report, Seconds};
 pub use weights::Weights;
 
 use std::rc::Rc;
 
-use history::{History, Stage};
-use layers::Layers;
+use history::History;
 
 use crate::camera::Camera;
 use crate::curves::{Contour, Shape, contours};
 use crate::energy::Energy;
 use crate::error::Error;
-use crate::frames::FramePair;
+use crate::frames::{Frame, FramePair, MAX_SIDE};
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
-use crate::options::{DepthMethod, MAX_CURVES, Options};
-use crate::paper::solver::Paper;
+use crate::layered::Layered;
+use crate::options::{MAX_CURVES, Options, Preset};
+use crate::paper::Paper;
 
 /// Finds regions, motions and depth of a pair of frames.
 pub struct Solver {
@@ -54,10 +41,10 @@ pub struct Solver {
     clock: fn() -> f64,
 }
 
-/// Pixels that the coarse-to-fine approach holds in the 4 GiB of WebAssembly: it takes 700 bytes for each with three
-/// curves, and more with more. Without bound where memory is not.
+/// Pixels that `best` holds in the 4 GiB of WebAssembly, at 250 bytes a pixel with four regions. Without bound where
+/// memory is not.
 const MOST_PIXELS: Option<usize> = if usize::BITS == 32 {
-    Some(4_000_000)
+    Some(MAX_SIDE * MAX_SIDE)
 } else {
     None
 };
@@ -114,13 +101,23 @@ impl Solver {
         let after = self.approach.labels();
         let changed = before.data().iter().zip(after.data());
         let changed = changed.filter(|(a, b)| a != b).count() as f64 / before.len() as f64;
-        let stage = Stage::of(&*self.approach);
-        let still = self
-            .history
-            .enter(energy, changed, stage, self.options.tolerance);
-        let more = self.approach.end_pass(still, &self.options);
-        self.history.leave(stage, Stage::of(&*self.approach), more);
-        self.status = self.history.status(&self.options);
+        let still = self.history.enter(energy, changed, self.options.tolerance);
+        let next = self.approach.end_pass(changed, still, &self.options);
+        self.status = self.history.leave(next, &self.options);
+    }
+
+    /// Takes the following frame of the film: the second frame becomes the first. Curves, motions and depth as they are
+    /// carry over as the first guess, and a solver that had stopped goes on. Curves are numbered as before.
+    ///
+    /// # Errors
+    /// What [`FramePair::new`] finds wrong with the new pair; then nothing is changed.
+    pub fn next(&mut self, frame: Frame) -> Result<(), Error> {
+        let pair = FramePair::new(self.pair.second().clone(), frame)?;
+        self.pair = Rc::new(pair);
+        self.approach.advance(self.pair.clone(), &self.options);
+        self.history.draw();
+        self.resume();
+        Ok(())
     }
 
     /// Step 1 alone: the motion of every region, for the present depth and curves.
@@ -190,9 +187,8 @@ impl Solver {
     pub fn set_options(&mut self, options: Options) -> Result<(), Error> {
         options.validate()?;
         check_memory(&self.pair, &options)?;
-        let relit =
-            options.lighting != self.options.lighting && options.depth == DepthMethod::Layers;
-        let anew = options.depth != self.options.depth || relit;
+        let anew = options.preset != self.options.preset
+            || options.preset == Preset::Best && options.lighting != self.options.lighting;
         self.options = options;
         if anew {
             self.reset();
@@ -255,16 +251,16 @@ fn begin(
     level_sets: Vec<Grid<f32>>,
     options: &Options,
 ) -> Box<dyn Approach> {
-    match options.depth {
-        DepthMethod::Descent => Box::new(Paper::new(pair.clone(), camera, level_sets, options)),
-        DepthMethod::Layers => Box::new(crate::layered::Layered::new(pair.clone(), camera, level_sets, options)),
+    match options.preset {
+        Preset::Paper => Box::new(Paper::new(pair.clone(), camera, level_sets, options)),
+        Preset::Best => Box::new(Layered::new(pair.clone(), camera, level_sets, options)),
     }
 }
 
 fn check_memory(pair: &FramePair, options: &Options) -> Result<(), Error> {
     let (width, height) = (pair.width(), pair.height());
     match MOST_PIXELS {
-        Some(most) if options.depth == DepthMethod::Layers && width * height > most => {
+        Some(most) if options.preset == Preset::Best && width * height > most => {
             Err(Error::Memory {
                 width,
                 height,

@@ -6,7 +6,7 @@ use super::approach::pixels;
 use super::weights::Weights;
 use super::{Solver, Status};
 use crate::energy::Energy;
-use crate::motion::Kind;
+use crate::motion_model::MotionModel;
 
 /// Seconds spent in each step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -33,7 +33,10 @@ pub struct RegionReport {
     /// ω, in radians per frame.
     pub rotation: [f64; 3],
     /// still, rotation, translation or full.
-    pub kind: Kind,
+    pub model: MotionModel,
+    /// Whether another motion, with another relief, explains the region as well: the flatter one is given, and
+    /// confidence is at most one half.
+    pub ambiguous: bool,
     /// Labels of the regions that it hides a part of.
     pub in_front_of: Vec<usize>,
 }
@@ -49,20 +52,15 @@ pub struct Report {
     pub level: usize,
     /// Number of scales.
     pub levels: usize,
-    /// Whether regions are taken for flat as yet, before depth is looked for.
-    pub flat: bool,
     /// The terms of (7).
     pub energy: Terms,
-    /// Total energy after each pass; comparable between passes of one scale, before and after curves settle.
+    /// Total energy after each pass; comparable between passes with no break between them.
     pub history: Vec<f64>,
-    /// Passes that had been made when each finer scale was reached.
-    pub refined: Vec<usize>,
-    /// Passes that had been made each time that curves had settled: from then on brightness alone competes,
-    /// and μ is less.
-    pub settled: Vec<usize>,
-    /// Passes that had been made each time that motions had come to rest: from then on every region has a μ of
-    /// its own.
-    pub rested: Vec<usize>,
+    /// Passes that had been made when energies became incomparable with those before: a finer scale began, weights
+    /// were chosen anew, curves were drawn or the next frame was taken.
+    pub breaks: Vec<usize>,
+    /// How good labels and flow are expected to be; null where that is not known.
+    pub expected: Option<Expected>,
     /// Every region, the background first.
     pub regions: Vec<RegionReport>,
     /// The weights in force.
@@ -71,6 +69,15 @@ pub struct Report {
     pub warnings: Vec<String>,
     /// Time spent.
     pub seconds: Times,
+}
+
+/// How good a result is expected to be, as the scale at work allows.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Expected {
+    /// Mean error of the flow, pixels of the frame.
+    pub flow: f64,
+    /// Share of wrong labels, 0–1.
+    pub labels: f64,
 }
 
 /// The terms of (7) and their sum.
@@ -95,23 +102,22 @@ pub struct Times {
 
 impl Report {
     pub(super) fn of(solver: &Solver) -> Self {
-        let motions = solver.approach.motions();
+        let states = solver.approach.regions();
         let labels = solver.approach.labels();
-        let behind = solver.approach.behind();
         let (level, levels) = solver.approach.scale();
-        let regions: Vec<RegionReport> = motions
-            .iter()
-            .zip(pixels(labels, motions.len()))
+        let owned = pixels(labels, states.len());
+        let regions: Vec<RegionReport> = (states.into_iter().zip(owned))
             .enumerate()
-            .map(|(label, ((motion, kind), pixels))| RegionReport {
+            .map(|(label, (state, pixels))| RegionReport {
                 label,
                 // At a coarser scale a pixel stands for four, sixteen, … of the frame's.
                 pixels: pixels << (2 * level),
                 share: pixels as f64 / labels.len() as f64,
-                translation: motion.translation.to_array(),
-                rotation: motion.rotation.to_array(),
-                kind: *kind,
-                in_front_of: behind.get(label).cloned().unwrap_or_default(),
+                translation: state.motion.translation.to_array(),
+                rotation: state.motion.rotation.to_array(),
+                model: state.model,
+                ambiguous: state.ambiguous,
+                in_front_of: state.in_front_of,
             })
             .collect();
         let energy = solver.energy();
@@ -121,15 +127,13 @@ impl Report {
             status: solver.status,
             level,
             levels,
-            flat: solver.approach.flat(),
             energy: Terms {
                 terms: energy,
                 total: energy.total(),
             },
             history: solver.history.energies.clone(),
-            refined: solver.history.refined.clone(),
-            settled: solver.history.settled.clone(),
-            rested: solver.history.rested.clone(),
+            breaks: solver.history.breaks.clone(),
+            expected: solver.approach.expected(),
             warnings: warnings(&regions),
             regions,
             weights: solver.approach.weights(),
@@ -142,11 +146,16 @@ impl Report {
 }
 
 fn warnings(regions: &[RegionReport]) -> Vec<String> {
-    let vanished = regions.iter().filter(|r| r.pixels == 0);
-    vanished
-        .map(|r| match r.label {
-            0 => "the curves have taken the whole frame: no background is left".to_owned(),
-            k => format!("curve {k} has vanished: nothing moves differently where it was drawn"),
-        })
-        .collect()
+    let vanished = regions.iter().filter(|r| r.pixels == 0).map(|r| match r.label {
+        0 => "The curves have taken the whole frame: no background is left.".to_owned(),
+        k => format!("Curve {k} has vanished: nothing moves differently where it was drawn."),
+    });
+    let ambiguous = regions.iter().filter(|r| r.ambiguous && r.pixels > 0).map(|r| {
+        let name = match r.label {
+            0 => "The background".to_owned(),
+            k => format!("Region {k}"),
+        };
+        format!("{name} has two explanations that fit equally well; the one with less relief is shown.")
+    });
+    vanished.chain(ambiguous).collect()
 }

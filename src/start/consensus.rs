@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use super::patches::Patch;
 use crate::camera::{Camera, RigidMotion};
-use crate::motion::solve_positive;
+use crate::linalg::solve as solve_positive;
 
 /// τ², squared standard deviations beyond which a patch does not agree.
 const DISAGREES: f64 = 9.0;

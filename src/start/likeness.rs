@@ -8,7 +8,7 @@
 //! where it has nothing of it. Matching makes even noise a little alike.
 
 use super::patches::{HALF, Patch};
-use crate::warp::Scale;
+use super::scale::Scale;
 
 /// Likeness of the frames of a scale, in patches matched there.
 pub(super) fn likeness(scale: &Scale, patches: &[Patch]) -> f64 {

@@ -14,7 +14,7 @@ use super::surface::Surface;
 use super::surfaces::{Surfaces, windows};
 use crate::camera::Camera;
 use crate::frames::{FramePair, blur, halved, halved_camera};
-use crate::warp::{SMALLEST, Scale};
+use super::scale::{SMALLEST, Scale};
 
 /// Frames of more pixels are halved before anything else.
 const PIXELS: usize = 352 * 288;

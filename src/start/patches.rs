@@ -6,7 +6,7 @@
 //! direction of w is known: patches on a straight edge say little along it, and are not trusted there.
 
 use crate::grid::Grid;
-use crate::warp::Scale;
+use super::scale::Scale;
 
 /// Half the side of a patch, in pixels.
 pub(super) const HALF: usize = 4;

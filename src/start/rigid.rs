@@ -22,7 +22,7 @@ use glam::DVec3;
 
 use super::sight::Sight;
 use super::surface::Surface;
-use crate::motion::solve_positive;
+use crate::linalg::solve as solve_positive;
 
 /// Directions tried on the half sphere.
 const DIRECTIONS: usize = 60;

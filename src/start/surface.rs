@@ -12,7 +12,7 @@
 //! the fit finds what most agree on whatever the rest does.
 
 use super::sight::Sights;
-use crate::motion::solve_positive;
+use crate::linalg::solve as solve_positive;
 
 /// Terms that a surface may have.
 pub(super) const TERMS: [usize; 4] = [0, SHIFT, 6, 8];

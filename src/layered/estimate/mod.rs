@@ -7,7 +7,7 @@ mod step;
 mod surface;
 
 pub(crate) use candidates::Blocks;
-pub(crate) use normal_equations::{CUT, NormalEquations, Pose, Support};
+pub(crate) use normal_equations::{CUT, NormalEquations, Support};
 pub(crate) use planar::{Degree, PlanarFlow};
 pub(crate) use step::{Estimator, Free, Outcome, Prior, State, surface_energy, turn};
 pub(crate) use surface::Surface;

@@ -14,7 +14,9 @@
 use crate::grid::Grid;
 use crate::window::Window;
 
+use super::super::models::Problem;
 use super::super::scale::Scale;
+use super::step::State;
 use super::surface::Surface;
 
 /// κ: a residual of so many σ counts half its square.
@@ -32,6 +34,40 @@ pub(crate) struct Pose {
     pub tangent: [[f32; 3]; 2],
 }
 
+/// Where pixels go.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Target {
+    pose: Pose,
+    focal: f32,
+    centre: [f32; 2],
+}
+
+impl Pose {
+    /// Where pixels of `scale` go.
+    pub fn target(self, scale: &Scale) -> Target {
+        Target {
+            pose: self,
+            focal: scale.camera.focal as f32,
+            centre: [scale.camera.cx as f32, scale.camera.cy as f32],
+        }
+    }
+}
+
+impl Target {
+    /// The place in the second frame of pixel (x, y) at inverse depth ρ.
+    #[inline(always)]
+    pub fn of(&self, x: usize, y: usize, rho: f32) -> (f32, f32) {
+        let share = 1.0 / self.focal;
+        let [cx, cy] = self.centre;
+        let (x, y) = ((x as f32 - cx) * share, (y as f32 - cy) * share);
+        let (r, t) = (&self.pose.rotation, self.pose.translation);
+        let q: [f32; 3] =
+            std::array::from_fn(|c| r[c][0] * x + r[c][1] * y + r[c][2] + rho * t[c]);
+        let near = self.focal / q[2].max(1e-3);
+        (q[0] * near + cx, q[1] * near + cy)
+    }
+}
+
 /// Which pixels belong: those of `labels` that are `label`, inside `window`.
 #[derive(Clone, Copy)]
 pub(crate) struct Support<'a> {
@@ -40,6 +76,18 @@ pub(crate) struct Support<'a> {
     pub offered: Option<&'a Grid<u8>>,
     pub label: u8,
     pub window: Window,
+}
+
+impl<'a> Support<'a> {
+    /// The pixels that region `k` owns.
+    pub fn of(labels: &'a Grid<u8>, k: usize, window: Window) -> Self {
+        Self {
+            labels,
+            offered: None,
+            label: k as u8,
+            window,
+        }
+    }
 }
 
 /// Sums of products with the derivative a = h·T by ρ, in one cell: of a² with the products of two pairs of linear
@@ -115,18 +163,10 @@ impl Rows {
 }
 
 impl NormalEquations {
-    /// Goes over the pixels of `support` at `scale`, of number `level`; residuals of `sigma` are usual.
-    /// Unless `derivatives`, only cost and spread are found.
-    pub fn gather(
-        &mut self,
-        scale: &Scale,
-        level: usize,
-        support: Support,
-        pose: &Pose,
-        surface: &Surface,
-        sigma: f32,
-        derivatives: bool,
-    ) {
+    /// Goes over the region's pixels; residuals of the problem's σ are usual.
+    pub fn gather(&mut self, problem: &Problem, state: &State) {
+        let (scale, level, support) = (problem.scale, problem.level, problem.support);
+        let (pose, surface) = (&state.pose(), &state.surface);
         let Window { left, top, width, height } = support.window;
         self.rows.fit(width);
         self.rows.clear_sums();
@@ -136,16 +176,13 @@ impl NormalEquations {
         self.motion = Default::default();
         self.cost = 0.0;
         let mut histogram = [0u32; BINS];
-        let inverse = 1.0 / (CUT * sigma).powi(2);
+        let inverse = 1.0 / (CUT * problem.sigma).powi(2);
         let mut lanes = [[[0.0f32; 8]; 6]; 6];
         for y in top..top + height {
             surface.row(level, y, left, &mut self.rows.rho);
             self.rows.project(scale, pose, left, y);
             self.rows.compare(scale, &support, y, &mut histogram);
             self.cost += self.rows.weigh(scale, pose, left, y, inverse);
-            if !derivatives {
-                continue;
-            }
             let (row, below) = surface.row_cell(level, y);
             self.rows.sum_down(pose, below);
             self.rows.sum_motion(&mut lanes);

@@ -15,9 +15,10 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::super::scale::Scale;
-use super::normal_equations::{NormalEquations, Pose, Support};
+use super::super::models::Problem;
+use super::normal_equations::{NormalEquations, Pose};
 use super::surface::{RHO, Surface};
+use crate::camera::RigidMotion;
 use crate::linalg::{Banded, solve};
 use crate::options::Diffusion;
 
@@ -29,7 +30,7 @@ const DAMPING: f64 = 1.0;
 const LONGEST: f64 = 0.5;
 
 /// What is estimated of a region.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct State {
     pub translation: DVec3,
     pub rotation: DMat3,
@@ -69,8 +70,6 @@ pub(crate) struct Outcome {
     pub pixels: usize,
     /// σ of the residuals, grey levels.
     pub spread: f32,
-    /// ωᵀ C⁻¹ ω, C the covariance of ω: what speaks for a rotation.
-    pub wald: f64,
 }
 
 /// Solves for steps; memory is used again.
@@ -80,6 +79,8 @@ pub(crate) struct Estimator {
     /// For each control point: the columns of the five motions, and the gradient.
     cross: Vec<[f32; 6]>,
     solved: Vec<[f32; 6]>,
+    /// What a step started from.
+    before: State,
 }
 
 impl State {
@@ -108,6 +109,14 @@ impl State {
         }
     }
 
+    /// T and ω.
+    pub fn motion(&self) -> RigidMotion {
+        RigidMotion {
+            translation: self.translation,
+            rotation: self.omega(),
+        }
+    }
+
     /// ω, radians per frame.
     pub fn omega(&self) -> DVec3 {
         DQuat::from_mat3(&self.rotation).to_scaled_axis()
@@ -121,34 +130,28 @@ pub(crate) fn turn(omega: DVec3) -> DMat3 {
 
 impl Estimator {
     /// Takes up to `steps` steps. `equations` are those of `state` where `fresh`, and are those of what is left in the end.
-    #[expect(clippy::too_many_arguments, reason = "a problem, its data and its memory")]
     pub fn improve(
         &mut self,
-        scale: &Scale,
-        level: usize,
-        support: Support,
+        problem: &Problem,
         state: &mut State,
         free: Free,
-        prior: &Prior,
-        sigma: f32,
         steps: usize,
         equations: &mut NormalEquations,
         fresh: bool,
     ) -> Outcome {
+        let (prior, sigma) = (&problem.prior, problem.sigma);
         if !fresh {
-            equations.gather(scale, level, support, &state.pose(), &state.surface, sigma, true);
+            equations.gather(problem, state);
         }
-        let mut outcome = self.outcome(equations, state, prior, sigma);
+        let mut outcome = outcome_of(equations, state, prior, sigma);
         for _ in 0..steps {
-            let before = state.clone();
-            let wald = self.step(equations, state, free, prior, sigma);
-            equations.gather(scale, level, support, &state.pose(), &state.surface, sigma, true);
-            let mut after = self.outcome(equations, state, prior, sigma);
-            after.wald = wald;
+            self.before.clone_from(state);
+            self.step(equations, state, free, prior, sigma);
+            equations.gather(problem, state);
+            let after = outcome_of(equations, state, prior, sigma);
             if !(after.energy <= outcome.energy) {
-                *state = before;
-                equations.gather(scale, level, support, &state.pose(), &state.surface, sigma, true);
-                outcome.wald = wald;
+                state.clone_from(&self.before);
+                equations.gather(problem, state);
                 break;
             }
             outcome = after;
@@ -156,17 +159,7 @@ impl Estimator {
         outcome
     }
 
-    fn outcome(&self, equations: &NormalEquations, state: &State, prior: &Prior, sigma: f32) -> Outcome {
-        Outcome {
-            energy: equations.cost + surface_energy(&state.surface, prior, sigma),
-            data: equations.cost,
-            pixels: equations.pixels,
-            spread: equations.spread,
-            wald: 0.0,
-        }
-    }
-
-    /// One step; what speaks for a rotation before it, where all is free.
+    /// One step.
     fn step(
         &mut self,
         equations: &NormalEquations,
@@ -174,7 +167,7 @@ impl Estimator {
         free: Free,
         prior: &Prior,
         sigma: f32,
-    ) -> f64 {
+    ) {
         let variance = sigma * sigma;
         let moves_depth = free != Free::Rotation;
         if moves_depth {
@@ -199,13 +192,8 @@ impl Estimator {
                 }
             }
         }
-        let wald = match free {
-            Free::Full => wald(&a, state.omega()) / f64::from(variance),
-            _ => 0.0,
-        };
         let delta = motion_step(&a, &equations.motion, free, f64::from(variance));
         self.apply(equations, state, delta, moves_depth);
-        wald
     }
 
     /// The band matrix and the right-hand sides.
@@ -340,30 +328,13 @@ fn motion_step(reduced: &[[f64; 6]; 6], full: &[[f64; 6]; 6], free: Free, varian
     step.map(|d| d * (LONGEST / length).min(1.0))
 }
 
-/// ωᵀ S ω, S the Schur complement of ω with T and the surface eliminated.
-fn wald(a: &[[f64; 6]; 6], omega: DVec3) -> f64 {
-    let det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
-    if det.abs() < 1e-300 {
-        return 0.0;
+fn outcome_of(equations: &NormalEquations, state: &State, prior: &Prior, sigma: f32) -> Outcome {
+    Outcome {
+        energy: equations.cost + surface_energy(&state.surface, prior, sigma),
+        data: equations.cost,
+        pixels: equations.pixels,
+        spread: equations.spread,
     }
-    let inverse = [
-        [a[1][1] / det, -a[0][1] / det],
-        [-a[1][0] / det, a[0][0] / det],
-    ];
-    let w = omega.to_array();
-    let mut sum = 0.0;
-    for i in 0..3 {
-        for j in 0..3 {
-            let mut s = a[2 + i][2 + j];
-            for c in 0..2 {
-                for d in 0..2 {
-                    s -= a[2 + i][c] * inverse[c][d] * a[2 + j][d];
-                }
-            }
-            sum += s * w[i] * w[j];
-        }
-    }
-    sum
 }
 
 fn pull(surface: &Surface, variance: f32) -> f32 {

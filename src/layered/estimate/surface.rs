@@ -57,6 +57,20 @@ impl Surface {
         new
     }
 
+    /// The same surface moved by (u, v) pixels of the finest scale, over the same control points.
+    pub fn shifted(&self, [u, v]: [f32; 2]) -> Self {
+        let mut new = self.clone();
+        for i in 0..self.columns {
+            for j in 0..self.rows {
+                let x = (self.left + i * self.spacing) as f32 - 0.5;
+                let y = (self.top + j * self.spacing) as f32 - 0.5;
+                let node = self.node(i, j);
+                new.rho[node] = self.at(x - u, y - v);
+            }
+        }
+        new
+    }
+
     /// Where a control point's ρ is kept: neighbours along the shorter side follow each other, which keeps
     /// the normal equations' band narrow.
     #[inline(always)]

@@ -4,7 +4,7 @@
 //! E = Σk Σ_{x∈Rk} Ck(x)  +  (β/2) Σk Σx 1k (1 − K ∗ 1k)
 //! ```
 //!
-//! Ck is a region's cost, averaged over 5×5 pixels, K a 9×9 kernel whose Fourier transform is nowhere negative (a
+//! Ck is a region's cost, averaged over a few pixels, K a 9×9 kernel whose Fourier transform is nowhere negative (a
 //! box twice). The second sum is the length of all outlines times λ = β · `LENGTH_OF_PULL`, up to the kernel's
 //! width. Each sweep gives a pixel to the region with the least Ck − β K ∗ 1k; with such a K no sweep raises E. It stops
 //! when no pixel changes, or after [`SWEEPS`].
@@ -16,44 +16,49 @@ const SWEEPS: usize = 6;
 /// Half the side of one of K's two boxes, pixels.
 const RADIUS: usize = 2;
 /// λ/β, half the mean distance under K: for boxes of 5 pixels, twice.
-pub(crate) const LENGTH_OF_PULL: f64 = 0.8;
+pub(in crate::layered) const LENGTH_OF_PULL: f64 = 0.8;
 
-/// Relabels from costs that are averaged already; which share of pixels changed. `pulls` is memory for one plane a region.
-pub(crate) fn partition(
+/// Relabels from costs that are averaged already. `pulls` is memory for one plane a region.
+pub(super) fn partition(
     costs: &[Grid<f32>],
-    beta: &Grid<f32>,
+    beta: f32,
     labels: &mut Grid<u8>,
     pulls: &mut [Grid<f32>],
     spare: &mut Grid<f32>,
-) -> f64 {
-    let before = labels.clone();
+) {
+    let width = labels.width();
     for _ in 0..SWEEPS {
         pull(labels, pulls, spare);
-        let mut changed = 0usize;
-        for y in 0..labels.height() {
-            let row = labels.row_mut(y);
-            for (x, label) in row.iter_mut().enumerate() {
-                let mut best = (*label, f32::INFINITY);
-                for (k, (cost, pull)) in costs.iter().zip(pulls.iter()).enumerate() {
-                    let score = cost[(x, y)] - beta[(x, y)] * pull[(x, y)];
-                    if score < best.1 {
-                        best = (k as u8, score);
-                    }
-                }
-                changed += usize::from(*label != best.0);
-                *label = best.0;
+        // The planes of pulls become scores, then hold pulls again.
+        for (pull, cost) in pulls.iter_mut().zip(costs) {
+            for (p, c) in pull.data_mut().iter_mut().zip(cost.data()) {
+                *p = c - beta * *p;
             }
         }
-        if changed == 0 {
+        if width == 0 || !argmin(pulls, labels) {
             break;
         }
     }
-    let pairs = before.data().iter().zip(labels.data());
-    pairs.filter(|(a, b)| a != b).count() as f64 / labels.len() as f64
+}
+
+/// Gives every pixel to the region with the least score; whether any label has changed.
+pub(super) fn argmin(scores: &[Grid<f32>], labels: &mut Grid<u8>) -> bool {
+    let mut changed = false;
+    for (i, label) in labels.data_mut().iter_mut().enumerate() {
+        let mut best = (*label, scores[usize::from(*label)].data()[i]);
+        for (k, score) in scores.iter().enumerate() {
+            if score.data()[i] < best.1 {
+                best = (k as u8, score.data()[i]);
+            }
+        }
+        changed |= *label != best.0;
+        *label = best.0;
+    }
+    changed
 }
 
 /// K ∗ 1k for every region.
-pub(crate) fn pull(labels: &Grid<u8>, pulls: &mut [Grid<f32>], spare: &mut Grid<f32>) {
+pub(super) fn pull(labels: &Grid<u8>, pulls: &mut [Grid<f32>], spare: &mut Grid<f32>) {
     for (k, pull) in pulls.iter_mut().enumerate() {
         for (p, &label) in pull.data_mut().iter_mut().zip(labels.data()) {
             *p = f32::from(u8::from(usize::from(label) == k));
@@ -64,13 +69,13 @@ pub(crate) fn pull(labels: &Grid<u8>, pulls: &mut [Grid<f32>], spare: &mut Grid<
 }
 
 /// (β/2) Σ 1k (1 − K ∗ 1k) over all regions, from the K ∗ 1k.
-pub(crate) fn outline_energy(labels: &Grid<u8>, pulls: &[Grid<f32>], beta: f32) -> f64 {
+pub(super) fn outline_energy(labels: &Grid<u8>, pulls: &[Grid<f32>], beta: f32) -> f64 {
     let outside = |(i, &k): (usize, &u8)| 1.0 - f64::from(pulls[usize::from(k)].data()[i]);
     0.5 * f64::from(beta) * labels.data().iter().enumerate().map(outside).sum::<f64>()
 }
 
 /// The mean over (2r+1)² pixels, the border repeated outwards.
-pub(crate) fn box_blur(plane: &mut Grid<f32>, radius: usize, spare: &mut Grid<f32>) {
+pub(super) fn box_blur(plane: &mut Grid<f32>, radius: usize, spare: &mut Grid<f32>) {
     let (width, height) = (plane.width(), plane.height());
     let share = 1.0 / (2 * radius + 1) as f32;
     for y in 0..height {
@@ -134,7 +139,7 @@ mod tests {
         let before = energy(&labels);
         let mut memory = vec![Grid::new(48, 40, 0.0); 3];
         let mut room = Grid::new(48, 40, 0.0);
-        partition(&costs, &Grid::new(48, 40, 0.7), &mut labels, &mut memory, &mut room);
+        partition(&costs, 0.7, &mut labels, &mut memory, &mut room);
         assert!(energy(&labels) < before);
     }
 

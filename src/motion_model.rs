@@ -1,13 +1,13 @@
-//! What a motion shows of itself: which of still, rotation, translation and full it is.
+//! Motion models: which of still, rotation, translation and full a motion is, as far as it shows.
 
 use serde::Serialize;
 
 use crate::camera::{Camera, RigidMotion};
 
-/// What a motion is.
+/// The motion model of a region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum MotionModel {
     /// T = 0 and ω = 0.
     Still,
     /// T = 0: depth does not show.
@@ -23,26 +23,26 @@ pub enum Kind {
 /// derivatives of sampled brightness leave.
 const UNSEEN: f64 = 0.1;
 
-impl Kind {
+impl MotionModel {
     /// The kind of a motion as far as it shows, for a region whose mean 1/Z is 1.
     pub fn seen(camera: &Camera, motion: &RigidMotion) -> Self {
         let moves = camera.focal * motion.translation.length() > UNSEEN;
         let turns = camera.focal * motion.rotation.length() > UNSEEN;
         match (moves, turns) {
-            (false, false) => Kind::Still,
-            (false, true) => Kind::Rotation,
-            (true, false) => Kind::Translation,
-            (true, true) => Kind::Full,
+            (false, false) => MotionModel::Still,
+            (false, true) => MotionModel::Rotation,
+            (true, false) => MotionModel::Translation,
+            (true, true) => MotionModel::Full,
         }
     }
 
     /// Whether T is free, and depth shows.
     pub fn translates(self) -> bool {
-        matches!(self, Kind::Translation | Kind::Full)
+        matches!(self, MotionModel::Translation | MotionModel::Full)
     }
 
     /// Whether ω is free.
     pub fn rotates(self) -> bool {
-        matches!(self, Kind::Rotation | Kind::Full)
+        matches!(self, MotionModel::Rotation | MotionModel::Full)
     }
 }

@@ -1,0 +1,142 @@
+//! One picture out of layers: at each pixel of the frame the depth, motion and confidence of the region that owns it,
+//! and what the second frame hides; at any scale.
+
+use super::estimate::State;
+use super::label::Occlusion;
+use super::solver::{Layered, Phase};
+use crate::camera::RigidMotion;
+use crate::confidence::confidence;
+use crate::grid::Grid;
+use crate::interpretation::{Flow, Interpretation, NEAREST_FARTHEST};
+use crate::options::Options;
+use crate::solver::Expected;
+
+/// What flow is off by on the mean, in pixels of the scale at work.
+const FLOW_ERROR: f64 = 0.05;
+/// Share of the pixels beside an outline that have the wrong label, at the scale at work.
+const LABEL_ERROR: f64 = 0.5;
+/// Confidence of a region that two motions explain equally well, at most.
+const AMBIGUOUS: f32 = 0.5;
+
+impl Layered {
+    /// What the frames are taken for.
+    pub(super) fn compose(&self, options: &Options) -> Interpretation {
+        let (width, height) = (self.pair.width(), self.pair.height());
+        let camera = self.scales[0].camera;
+        let labels = self.frame_labels();
+        let motions: Vec<RigidMotion> = self.regions.iter().map(|r| r.state.motion()).collect();
+        let planar = matches!(self.phase, Phase::Planar(_));
+        let finest = &self.scales[0];
+        let occlusion = (options.occlusion && !planar && self.regions.len() > 1).then(|| {
+            let states: Vec<&State> = self.regions.iter().map(|r| &r.state).collect();
+            Occlusion::of(finest, 0, &states, &labels)
+        });
+        let mut flow = Flow {
+            u: Grid::new(width, height, 0.0),
+            v: Grid::new(width, height, 0.0),
+        };
+        let mut depth = Grid::new(width, height, 1.0f32);
+        let mut slope = Grid::new(width, height, 0.0f32);
+        let mut occluded = Grid::new(width, height, 0u8);
+        let [nearest, farthest] = NEAREST_FARTHEST;
+        let f = camera.focal as f32;
+        let targets: Vec<_> = (self.regions.iter())
+            .map(|r| r.state.pose().target(finest))
+            .collect();
+        for y in 0..height {
+            for x in 0..width {
+                let at = (x, y);
+                let k = usize::from(labels[at]);
+                let region = &self.regions[k];
+                if planar {
+                    let ray = camera.ray(x as f64, y as f64);
+                    let (u, v) = region.flow.at(ray.x as f32, ray.y as f32);
+                    (flow.u[at], flow.v[at]) = (u * f, v * f);
+                    continue;
+                }
+                let rho = match &region.dense {
+                    Some(dense) => dense[at],
+                    None => region.state.surface.at(x as f32, y as f32),
+                };
+                let (to_x, to_y) = targets[k].of(x, y, rho);
+                (flow.u[at], flow.v[at]) = (to_x - x as f32, to_y - y as f32);
+                depth[at] = rho.max(farthest.recip()).recip().max(nearest);
+                let hidden = k == 0 && occlusion.as_ref().is_some_and(|o| o.at(to_x, to_y) != 0);
+                let seen = finest.contains(to_x, to_y) && !hidden;
+                occluded[at] = u8::from(!seen);
+                if seen && region.model.translates() {
+                    let t = region.state.translation.as_vec3().to_array();
+                    let (px, py) = (
+                        (to_x - camera.cx as f32) / f,
+                        (to_y - camera.cy as f32) / f,
+                    );
+                    let [gx, gy] = [&finest.gradient[0], &finest.gradient[1]].map(|g| g[at]);
+                    slope[at] = f * (gx * (t[0] - px * t[2]) + gy * (t[1] - py * t[2]));
+                }
+            }
+        }
+        let mut confidence = confidence(&slope, f64::from(self.sigma));
+        for (i, c) in confidence.data_mut().iter_mut().enumerate() {
+            let region = &self.regions[usize::from(labels.data()[i])];
+            if occluded.data()[i] != 0 || !region.model.translates() || planar {
+                *c = 0.0;
+            } else if region.ambiguous {
+                *c = c.min(AMBIGUOUS);
+            }
+        }
+        Interpretation {
+            camera,
+            labels,
+            depth,
+            flow,
+            confidence,
+            occluded,
+            motions,
+        }
+    }
+
+    /// Labels at the frame's size; outlines between pixels of a coarse scale come from what surrounds them.
+    pub(super) fn frame_labels(&self) -> Grid<u8> {
+        let (width, height) = (self.pair.width(), self.pair.height());
+        if self.level == 0 {
+            return self.labels.clone();
+        }
+        let (level, labels) = (self.level, &self.labels);
+        Grid::from_fn(width, height, |x, y| {
+            labels[(
+                (x >> level).min(labels.width() - 1),
+                (y >> level).min(labels.height() - 1),
+            )]
+        })
+    }
+
+    /// φk at the frame's size: how much more of its surroundings belong to k than to any other region, in pixels.
+    pub(super) fn smooth_level_sets(&self) -> Vec<Grid<f32>> {
+        let (width, height) = (self.pair.width(), self.pair.height());
+        let labels = self.frame_labels();
+        let side = (1 << self.level) as f32;
+        (1..self.regions.len())
+            .map(|k| {
+                let own = labels.map(|l| if usize::from(l) == k { 1.0f32 } else { -1.0 });
+                let smooth = crate::frames::blur(&own, f64::from(0.7 * side));
+                Grid::from_fn(width, height, |x, y| side * smooth[(x, y)])
+            })
+            .collect()
+    }
+
+    /// How good labels and flow are, judged by the scale at work.
+    pub(super) fn expected_now(&self) -> Option<Expected> {
+        if matches!(self.phase, Phase::Planar(_) | Phase::Search) {
+            return None;
+        }
+        let labels = &self.labels;
+        let beside = (0..labels.height())
+            .flat_map(|y| labels.row(y).windows(2))
+            .filter(|pair| pair[0] != pair[1])
+            .count();
+        Some(Expected {
+            flow: FLOW_ERROR * f64::from(1u32 << self.level),
+            labels: 2.0 * LABEL_ERROR * beside as f64 / labels.len() as f64,
+        })
+    }
+}

@@ -1,0 +1,110 @@
+//! The planes that labelling works on, one set for each scale.
+
+use super::data_cost::chance_cost;
+use super::partition::{argmin, box_blur, outline_energy, partition, pull};
+use super::{NOBODY, saturation};
+use crate::grid::Grid;
+use crate::layered::scale::Scale;
+
+/// Half the side of the window over which costs are averaged: while regions are planes, and later.
+const WINDOW: [usize; 2] = [3, 1];
+/// Half the side of the window over which chance is averaged, twice.
+const CHANCE_WINDOW: usize = 3;
+/// What a hidden pixel is charged, in units of what it costs to match by chance.
+const HIDDEN: f32 = 0.7;
+/// Half the side of the window, twice, of the costs that a coarse scale starts from.
+const RESTART_WINDOW: usize = 2;
+/// A pixel that costs its owner more than this share of the largest cost is not explained by it.
+const UNEXPLAINED: f32 = 0.6;
+/// The least K ∗ 1k under which such a pixel is offered to region k.
+const NEAR: f32 = 0.01;
+
+/// Costs, pulls and what is passed from one to the other.
+pub(in crate::layered) struct Memory {
+    /// For each region what each pixel costs it, grey levels².
+    pub costs: Vec<Grid<f32>>,
+    /// For each region K ∗ 1k.
+    pub pulls: Vec<Grid<f32>>,
+    pub chance: Grid<f32>,
+    spare: Grid<f32>,
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        let empty = Grid::new(0, 0, 0.0);
+        Self {
+            costs: Vec::new(),
+            pulls: Vec::new(),
+            chance: empty.clone(),
+            spare: empty,
+        }
+    }
+}
+
+impl Memory {
+    /// Makes it as large as a scale.
+    pub fn fit(&mut self, width: usize, height: usize, regions: usize) {
+        let plane = || Grid::new(width, height, 0.0);
+        self.costs = (0..regions).map(|_| plane()).collect();
+        self.pulls = (0..regions).map(|_| plane()).collect();
+        self.chance = plane();
+        self.spare = plane();
+    }
+
+    /// What a hidden pixel is charged, at each pixel.
+    pub fn find_chance(&mut self, scale: &Scale, sigma: f32) {
+        chance_cost(scale, sigma, &mut self.chance);
+        box_blur(&mut self.chance, CHANCE_WINDOW, &mut self.spare);
+        box_blur(&mut self.chance, CHANCE_WINDOW, &mut self.spare);
+        self.chance.data_mut().iter_mut().for_each(|c| *c *= HIDDEN);
+    }
+
+    /// Averages costs over a few pixels: one alone tells little.
+    pub fn average(&mut self, rigid: bool) {
+        for costs in &mut self.costs {
+            box_blur(costs, WINDOW[usize::from(rigid)], &mut self.spare);
+        }
+    }
+
+    /// Labels by the costs as they are; `anew` starts from the least cost in a wide window instead of the labels.
+    pub fn partition(&mut self, beta: f32, anew: bool, labels: &mut Grid<u8>) {
+        if anew {
+            for (costs, wide) in self.costs.iter().zip(&mut self.pulls) {
+                wide.data_mut().copy_from_slice(costs.data());
+                box_blur(wide, RESTART_WINDOW, &mut self.spare);
+                box_blur(wide, RESTART_WINDOW, &mut self.spare);
+            }
+            argmin(&self.pulls, labels);
+        }
+        partition(&self.costs, beta, labels, &mut self.pulls, &mut self.spare);
+    }
+
+    /// What labels cost, and their outlines; also brings the pulls up to date.
+    pub fn energy(&mut self, beta: f32, labels: &Grid<u8>) -> [f64; 2] {
+        pull(labels, &mut self.pulls, &mut self.spare);
+        let own = labels.data().iter().enumerate();
+        let data = own.map(|(i, &k)| f64::from(self.costs[usize::from(k)].data()[i]));
+        [data.sum(), outline_energy(labels, &self.pulls, beta)]
+    }
+
+    /// Offers pixels that their owner does not explain to the nearest other region.
+    pub fn offer(&self, sigma: f32, labels: &Grid<u8>, offered: &mut Grid<u8>) {
+        offered.data_mut().fill(NOBODY);
+        if self.costs.len() == 1 {
+            return;
+        }
+        let most = UNEXPLAINED * saturation(sigma);
+        for (i, (&owner, offered)) in labels.data().iter().zip(offered.data_mut()).enumerate() {
+            if self.costs[usize::from(owner)].data()[i] <= most {
+                continue;
+            }
+            let mut nearest = NEAR;
+            for (k, pull) in self.pulls.iter().enumerate() {
+                if k != usize::from(owner) && pull.data()[i] > nearest {
+                    nearest = pull.data()[i];
+                    *offered = k as u8;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,230 @@
+//! The stages of a rigid pass: estimate motion and surface, then the surface alone, then label.
+//!
+//! Motion is found under weak charges for curvature and held, then the surface under strong ones: weak ones alone leave
+//! depth rough, strong ones alone turn T, since smoothness prefers the T that needs the least relief.
+
+use super::estimate::{Free, State, Support, surface_energy};
+use super::label::{LENGTH_OF_PULL, Occlusion, rigid_residual};
+use super::models::{Problem, ambiguous, free};
+use super::solver::{Layered, Phase};
+use crate::motion_model::MotionModel;
+use crate::options::Options;
+use crate::solver::Weights;
+use crate::window::Window;
+
+/// What curvature is charged while motion is found, and for depth, in variances of the residual, px².
+const STIFFNESS: [f64; 2] = [1e5, 1e6];
+/// Gauss–Newton steps of motion with depth, and of depth alone.
+const STEPS: [usize; 2] = [2, 2];
+/// Least σ in grey levels: frames of 8 bits are not known better, smoothed as they are.
+const LEAST_SIGMA: f32 = 0.4;
+/// Pixels of the finest scale by which a surface reaches beyond what its region owns.
+const MARGIN: usize = 16;
+/// What a pixel of curve costs in units of the largest cost of a pixel: on coarse scales and in the first pass of the
+/// finest, so that curves do not stick, and at last.
+const PULL: [f32; 3] = [1.0, 2.0, 4.0];
+/// The same while regions are planes.
+const PLANAR_PULL: f32 = 0.5;
+
+impl Layered {
+    /// Where regions are.
+    pub(super) fn find_windows(&mut self) {
+        let (width, height) = (self.labels.width(), self.labels.height());
+        let (labels, offered) = (self.labels.data(), self.offered.data());
+        for (k, region) in self.regions.iter_mut().enumerate() {
+            let owns = |i: usize| usize::from(labels[i]) == k;
+            region.window = Window::around(width, height, 0, owns);
+            let reach = |i: usize| owns(i) || usize::from(offered[i]) == k;
+            region.reach = Window::around(width, height, 0, reach);
+            region.fresh = false;
+        }
+    }
+
+    /// The window of the finest scale over which the surface of region k reaches: the background's over all.
+    pub(super) fn reach_of(&self, k: usize, window: Window) -> Window {
+        let (width, height) = (self.pair.width(), self.pair.height());
+        if k == 0 {
+            return Window::whole(width, height);
+        }
+        let level = self.level;
+        let first = |edge: usize| (edge << level).saturating_sub(MARGIN);
+        let last = |edge: usize, most: usize| ((edge << level) + MARGIN).min(most);
+        let (left, top) = (first(window.left), first(window.top));
+        Window {
+            left,
+            top,
+            width: last(window.left + window.width, width) - left,
+            height: last(window.top + window.height, height) - top,
+        }
+    }
+
+    /// Surfaces over where regions are now.
+    pub(super) fn fit_surfaces(&mut self) {
+        for k in 0..self.regions.len() {
+            if let Some(window) = self.regions[k].reach {
+                let reach = self.reach_of(k, window);
+                let spacing = self.spacing();
+                let surface = &mut self.regions[k].state.surface;
+                *surface = surface.over(spacing, &reach);
+                self.regions[k].fresh = false;
+            }
+        }
+    }
+
+    /// Takes a first step, and measures σ of what it leaves.
+    pub(super) fn measure_sigma(&mut self, options: &Options) {
+        self.improve(STIFFNESS[0], 1, true, options);
+        let owned = self.regions.iter().filter(|r| r.window.is_some());
+        self.sigma = owned.map(|r| r.outcome.spread).fold(LEAST_SIGMA, f32::max);
+        self.regions.iter_mut().for_each(|r| r.fresh = false);
+    }
+
+    /// Stage 1: motion and surface of every region.
+    pub(super) fn estimate(&mut self, options: &Options) {
+        self.improve(STIFFNESS[0], STEPS[0], true, options);
+    }
+
+    /// Stage 1, the surface alone, motion held.
+    pub(super) fn estimate_depth(&mut self, options: &Options) {
+        self.improve(STIFFNESS[1], STEPS[1], false, options);
+        let prior = self.prior(STIFFNESS[1], self.sigma, options);
+        let owned = self.regions.iter().filter(|r| r.window.is_some());
+        self.energy.smoothness = (owned.clone())
+            .map(|r| surface_energy(&r.state.surface, &prior, self.sigma))
+            .sum();
+        self.energy.data = owned.map(|r| r.outcome.data).sum();
+    }
+
+    fn improve(&mut self, stiffness: f64, steps: usize, moving: bool, options: &Options) {
+        let prior = self.prior(stiffness, self.sigma, options);
+        for (k, region) in self.regions.iter_mut().enumerate() {
+            let Some(window) = region.reach.filter(|_| region.window.is_some()) else {
+                continue;
+            };
+            let problem = Problem {
+                scale: &self.scales[self.level],
+                level: self.level,
+                support: Support {
+                    offered: Some(&self.offered),
+                    ..Support::of(&self.labels, k, window)
+                },
+                prior,
+                sigma: self.sigma,
+            };
+            let free = if moving { free(region.model) } else { Free::Depth };
+            let moves = if moving {
+                region.model != MotionModel::Still
+            } else {
+                region.model.translates()
+            };
+            region.outcome = self.estimator.improve(
+                &problem,
+                &mut region.state,
+                free,
+                if moves { steps } else { 0 },
+                &mut region.equations,
+                region.fresh,
+            );
+            region.fresh = true;
+        }
+    }
+
+    /// Compares the motion models that are left.
+    pub(super) fn select_models(&mut self, options: &Options) {
+        let prior = self.prior(STIFFNESS[0], self.sigma, options);
+        for (k, region) in self.regions.iter_mut().enumerate() {
+            let alternatives = std::mem::take(&mut region.alternatives);
+            let Some(window) = region.window else {
+                continue;
+            };
+            let problem = Problem {
+                scale: &self.scales[self.level],
+                level: self.level,
+                support: Support::of(&self.labels, k, window),
+                prior,
+                sigma: self.sigma,
+            };
+            let own = &region.state.surface;
+            let (spacing, reach) = (own.spacing, own.window());
+            let over = |(model, mut state): (_, State)| {
+                state.surface = state.surface.over(spacing, &reach);
+                (model, state)
+            };
+            let mut given = vec![(region.model, region.state.clone())];
+            given.extend(alternatives.into_iter().map(over));
+            let memory = (&mut self.estimator, &mut region.equations);
+            let found = problem.select(given, memory);
+            region.ambiguous = ambiguous(&found);
+            if let Some(best) = found.into_iter().next() {
+                region.model = best.model;
+                region.state = best.state;
+                region.outcome = best.outcome;
+            }
+            region.fresh = false;
+        }
+    }
+
+    /// Stage 2: labels.
+    pub(super) fn label(&mut self, options: &Options) {
+        let (scale, level) = (&self.scales[self.level], self.level);
+        for (region, residuals) in self.regions.iter().zip(&mut self.memory.costs) {
+            rigid_residual(scale, level, region, self.sigma, residuals);
+        }
+        let occlusion = (options.occlusion && self.regions.len() > 1).then(|| {
+            let states: Vec<&State> = self.regions.iter().map(|r| &r.state).collect();
+            Occlusion::of(scale, level, &states, &self.labels)
+        });
+        if let Some(occlusion) = occlusion {
+            self.memory.find_chance(scale, self.sigma);
+            let background = &self.regions[0].state;
+            let (chance, costs) = (&self.memory.chance, &mut self.memory.costs[0]);
+            let hides = occlusion.excuse(scale, level, background, chance, costs);
+            for (region, hides) in self.regions.iter_mut().zip(hides) {
+                region.hides = hides;
+            }
+        }
+        let pull = match self.phase {
+            Phase::Rigid(0) if level == 0 => PULL[1],
+            Phase::Rigid(_) if level == 0 => PULL[2],
+            _ => PULL[0],
+        };
+        self.share_out(Some(pull), options);
+        self.fit_surfaces();
+    }
+
+    /// What each pixel costs its region, averaged, where labels need not be found.
+    pub(super) fn find_costs(&mut self) {
+        let scale = &self.scales[self.level];
+        for (region, costs) in self.regions.iter().zip(&mut self.memory.costs) {
+            rigid_residual(scale, self.level, region, self.sigma, costs);
+        }
+        self.memory.average(true);
+    }
+
+    /// Gives every pixel to a region by the costs in memory.
+    pub(super) fn share_out(&mut self, pull: Option<f32>, options: &Options) {
+        self.memory.average(pull.is_some());
+        let most = super::label::saturation(self.sigma);
+        let beta = match options.lambda {
+            Some(lambda) => (lambda / LENGTH_OF_PULL) as f32,
+            None => pull.unwrap_or(PLANAR_PULL) * most,
+        };
+        self.weights = Weights {
+            mu: self.prior(STIFFNESS[1], self.sigma, options).mu,
+            lambda: f64::from(beta) * LENGTH_OF_PULL,
+            sigma: f64::from(self.sigma),
+        };
+        if self.regions.len() > 1 {
+            self.memory.partition(beta, pull.is_some() && self.level > 0, &mut self.labels);
+            let [data, length] = self.memory.energy(beta, &self.labels);
+            (self.energy.data, self.energy.length) = (data, length);
+        } else if pull.is_none() {
+            self.energy.data = self.memory.energy(beta, &self.labels)[0];
+        }
+        if pull.is_some() {
+            let memory = &self.memory;
+            memory.offer(self.sigma, &self.labels, &mut self.offered);
+        }
+        self.find_windows();
+    }
+}

@@ -1,0 +1,116 @@
+//! The first scale: regions as planes, then candidate motions.
+//!
+//! A drawn circle covers only a part of its object and may miss some of it. Planes have eight numbers and reach as far as
+//! they fit, so that in a few rounds of fitting and labelling each curve finds the outline of what it was drawn on.
+
+use super::estimate::{Blocks, Degree, PlanarFlow, Support, Surface};
+use super::label::{coarsened, planar_cost};
+use super::models::{Problem, ambiguous};
+use super::solver::Layered;
+use crate::grid::Grid;
+use crate::options::Options;
+use crate::window::Window;
+
+/// Rounds in which curves have six numbers instead of eight: a part of an object tells no more.
+const AFFINE_ROUNDS: usize = 3;
+/// Gauss–Newton steps of a planar fit.
+const STEPS: usize = 3;
+/// A region with more pixels than this at the first scale shows its motion on the next coarser one.
+const LARGE: usize = 8000;
+/// Least σ of a planar fit in the search, grey levels.
+const LEAST_SIGMA: f32 = 0.7;
+/// What curvature of a candidate is charged, in variances of the residual, px².
+const STIFFNESS: f64 = 1e5;
+
+impl Layered {
+    /// Fits a plane to every region.
+    pub(super) fn fit_planes(&mut self, round: usize) {
+        let coarse = (self.level + 1).min(self.scales.len() - 1);
+        let half = coarsened(&self.labels, coarse - self.level);
+        for (k, region) in self.regions.iter_mut().enumerate() {
+            let Some(window) = region.window else {
+                continue;
+            };
+            if round == 0
+                && let Some(window) = around(&half, k)
+            {
+                let support = Support::of(&half, k, window);
+                let scale = &self.scales[coarse];
+                region.flow = PlanarFlow::search(scale, &support);
+                region.flow.fit(scale, &support, Degree::Shift, STEPS);
+                region.flow.fit(scale, &support, Degree::Affine, STEPS + 1);
+            }
+            let degree = if round < AFFINE_ROUNDS && k > 0 {
+                Degree::Affine
+            } else {
+                Degree::Plane
+            };
+            let support = Support::of(&self.labels, k, window);
+            region.flow.fit(&self.scales[self.level], &support, degree, STEPS);
+        }
+    }
+
+    /// Labels by what planes leave unexplained.
+    pub(super) fn label_planes(&mut self, round: usize, options: &Options) {
+        if round < 2 {
+            let owned = self.regions.iter().filter(|r| r.window.is_some());
+            self.sigma = owned.map(|r| r.flow.sigma).fold(1.0, f32::max);
+        }
+        let scale = &self.scales[self.level];
+        for (region, costs) in self.regions.iter().zip(&mut self.memory.costs) {
+            planar_cost(scale, region, self.sigma, costs);
+        }
+        self.energy.smoothness = 0.0;
+        self.share_out(None, options);
+    }
+
+    /// Motion, model and surface of every region from scratch.
+    pub(super) fn search_motions(&mut self, options: &Options) {
+        let select = options.model_selection;
+        for k in 0..self.regions.len() {
+            let Some(window) = self.regions[k].window else {
+                continue;
+            };
+            let flow = self.regions[k].flow;
+            let sigma = flow.sigma.max(LEAST_SIGMA);
+            let support = Support::of(&self.labels, k, window);
+            let blocks = Blocks::gather(self.here(), &support, &flow);
+            let owned = self.labels.data().iter().filter(|&&l| usize::from(l) == k);
+            let up = usize::from(owned.count() > LARGE && self.level + 1 < self.scales.len());
+            let labels = coarsened(&self.labels, up);
+            let Some(coarse) = around(&labels, k) else {
+                continue;
+            };
+            let flat = Surface::flat(2 * self.spacing(), &self.reach_of(k, window));
+            let problem = Problem {
+                scale: &self.scales[self.level + up],
+                level: self.level + up,
+                support: Support::of(&labels, k, coarse),
+                prior: self.prior(STIFFNESS, sigma, options),
+                sigma,
+            };
+            let region = &mut self.regions[k];
+            let memory = (&mut self.estimator, &mut region.equations);
+            let found = problem.search(&blocks, &flat, select, memory);
+            region.ambiguous = ambiguous(&found);
+            region.fresh = false;
+            region.dense = None;
+            let mut found = found.into_iter();
+            if let Some(best) = found.next() {
+                region.model = best.model;
+                region.state = best.state;
+                region.outcome = best.outcome;
+            }
+            region.alternatives = found.map(|c| (c.model, c.state)).collect();
+        }
+        self.fit_surfaces();
+        self.measure_sigma(options);
+        self.estimate(options);
+    }
+}
+
+/// The window around a label.
+fn around(labels: &Grid<u8>, k: usize) -> Option<Window> {
+    let data = labels.data();
+    Window::around(labels.width(), labels.height(), 0, |i| usize::from(data[i]) == k)
+}
