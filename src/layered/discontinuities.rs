@@ -1,6 +1,6 @@
 //! Stage 3: depth pixel by pixel, for regions whose depth has steps.
 //!
-//! A surface over control points cannot step. Where a region leaves more than [`UNEXPLAINED`] of its pixels unexplained,
+//! A surface over control points cannot step. Where a region leaves many of its pixels unexplained ([`UNEXPLAINED`]),
 //! matches give its motion anew, a plane sweep its depth, and both are refined (`refine/`). The result is taken if its mean
 //! cost over the region is less than [`GAIN`] of the surface's.
 
@@ -13,12 +13,13 @@ use crate::init::{epipolar_motion, matches};
 use crate::motion_model::MotionModel;
 use crate::window::Window;
 
-/// Share of a region's pixels that a surface may leave unexplained, and from which cost on a pixel is.
+/// Share of a region's pixels that a surface may leave unexplained, times the number of regions, and the share of the
+/// largest cost from which on a pixel is.
 const UNEXPLAINED: [f64; 2] = [0.01, 0.5];
 /// A region with fewer pixels than this has too few matches.
 const FEWEST: usize = 2000;
 /// What the mean cost must fall to.
-const GAIN: f64 = 0.98;
+const GAIN: f64 = 0.87;
 
 impl Layered {
     /// Whether some region wants depth pixel by pixel.
@@ -37,7 +38,9 @@ impl Layered {
             all += 1;
             bad += usize::from(cost > most);
         }
-        all >= FEWEST && bad as f64 > UNEXPLAINED[0] * all as f64
+        // Every outline brings hidden and shadowed pixels that no surface explains.
+        let usual = UNEXPLAINED[0] * self.regions.len() as f64;
+        all >= FEWEST && bad as f64 > usual * all as f64
     }
 
     /// Looks for depth anew where it is wanted.
@@ -69,7 +72,7 @@ impl Layered {
                 surface.at(x as f32, y as f32)
             });
             let after = self.mean_cost(k, &refined.motion, |x, y| refined.rho[(x, y)]);
-            if after < GAIN * before {
+                if after < GAIN * before {
                 let region = &mut self.regions[k];
                 region.state.translation = refined.motion.translation;
                 region.state.rotation = refined.motion.matrix();
