@@ -54,7 +54,7 @@ pub struct Reading {
 }
 
 /// All of them.
-pub static RECORDED: [Recorded; 6] = [
+pub static RECORDED: [Recorded; 12] = [
     // The clouds are not rigid, and their flow not known; a curve around them leaves the ground to itself.
     Recorded {
         frames: ["frame09.png", "frame10.png"],
@@ -98,6 +98,38 @@ pub static RECORDED: [Recorded; 6] = [
     Recorded {
         frames: ["frame10.png", "frame11.png"],
         ..plain("translation_sphere", 256.0)
+    },
+    // From here on f is not known but for two; the frame's longer side is taken. Static scenes first.
+    Recorded {
+        frames: ["frame10.png", "frame11.png"],
+        flow: Some("flow10.flo"),
+        ..plain("motorcycle", 397.0)
+    },
+    Recorded {
+        frames: ["frame10.png", "frame11.png"],
+        flow: Some("flow10.flo"),
+        ..plain("urban3", 640.0)
+    },
+    Recorded {
+        frames: ["frame10.png", "frame11.png"],
+        centre: Some([304.0, 86.0]),
+        flow: Some("flow10.flo"),
+        ..plain("kitti74", 359.4)
+    },
+    Recorded {
+        frames: ["frame09.png", "frame13.png"],
+        ..plain("cokecan", 300.0)
+    },
+    // Several things move by themselves.
+    Recorded {
+        frames: ["frame10.png", "frame11.png"],
+        flow: Some("flow10.flo"),
+        ..plain("rubberwhale", 584.0)
+    },
+    Recorded {
+        frames: ["frame02.png", "frame03.png"],
+        flow: Some("flow02.flo"),
+        ..plain("alley", 410.0)
     },
 ];
 

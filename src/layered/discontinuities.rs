@@ -48,12 +48,11 @@ impl Layered {
         let wanted: Vec<usize> = (0..self.regions.len())
             .filter(|&k| self.is_unexplained(k))
             .collect();
-        let [mut first, second] = [self.pair.first(), self.pair.second()].map(|f| f.grey.clone());
-        let (gain, offset) = (self.lighting.gain as f32, self.lighting.offset as f32);
-        first.data_mut().iter_mut().for_each(|v| *v = gain * *v + offset);
-        let frames = [&first, &second];
-        let all = matches(&first, &second);
+        // Not in each other's light: matches and the sweep compare frames less their local mean.
+        let frames = [&self.pair.first().grey, &self.pair.second().grey];
+        let all = matches(frames[0], frames[1]);
         let camera = self.scales[0].camera;
+        let mut adopted = Vec::new();
         for k in wanted {
             let support = self.labels.map(|l| usize::from(l) == k);
             let own: Vec<_> = (all.iter().copied())
@@ -73,14 +72,17 @@ impl Layered {
             });
             let after = self.mean_cost(k, &refined.motion, |x, y| refined.rho[(x, y)]);
                 if after < GAIN * before {
-                let region = &mut self.regions[k];
-                region.state.translation = refined.motion.translation;
-                region.state.rotation = refined.motion.matrix();
-                region.model = MotionModel::Full;
-                region.ambiguous = false;
-                region.dense = Some(refined.rho);
-                region.fresh = false;
+                adopted.push((k, refined));
             }
+        }
+        for (k, refined) in adopted {
+            let region = &mut self.regions[k];
+            region.state.translation = refined.motion.translation;
+            region.state.rotation = refined.motion.matrix();
+            region.model = MotionModel::Full;
+            region.ambiguous = false;
+            region.dense = Some(refined.rho);
+            region.fresh = false;
         }
     }
 
