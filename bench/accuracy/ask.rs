@@ -5,15 +5,15 @@ use std::path::PathBuf;
 use relievo::options::Preset;
 
 use crate::Failure;
-use crate::cases::SEED;
+use crate::cases::{Filming, SEED};
 
 /// What `--help` prints.
 pub const HELP: &str = "\
-npm run accuracy -- [NAME…] [--preset best|paper] [--seed N] [--passing] [--tsv FILE] [--data DIR]
-npm run accuracy -- --levers [NAME…] [--seed N] [--passing]
+npm run accuracy -- [NAME…] [--preset best|paper] [--seed N] [--passing|--mild] [--tsv FILE] [--data DIR]
+npm run accuracy -- --levers [NAME…] [--seed N] [--passing|--mild]
 npm run accuracy -- --starts [NAME…] [--preset best|paper] [--seed N]
-npm run accuracy -- --auto|--find|--focal [NAME…] [--seed N] [--passing]
-npm run accuracy -- --export DIR [NAME…] [--seed N] [--passing]
+npm run accuracy -- --auto|--find|--focal [NAME…] [--seed N] [--passing|--mild]
+npm run accuracy -- --export DIR [NAME…] [--seed N] [--passing|--mild]
 
 Solves the built-in sequences and 20 random variants, and says how far each result is from the truth.
 
@@ -21,6 +21,7 @@ NAME          only these: blocks, carousel-1003, …
 --preset      only this preset
 --seed N      draw the variants from the seeds N to N+19 instead of 1000 to 1019
 --passing     variants that stand still and are filmed in passing, with no curve drawn; nothing built in
+--mild        variants with a background of little relief before a camera that shifts and turns; nothing built in
 --tsv FILE    write name, preset, AEE and labels wrong as well
 --data DIR    solve the recorded sequences in DIR as well
 --levers      what each option of `best` is worth: it is switched off alone
@@ -63,8 +64,8 @@ pub struct Asked {
     pub presets: Vec<Preset>,
     /// The first variant's seed.
     pub seed: u64,
-    /// Whether variants stand still and are filmed in passing.
-    pub passing: bool,
+    /// How variants are filmed.
+    pub filming: Filming,
     /// Where to write figures for other programs.
     pub tsv: Option<PathBuf>,
     /// Where recorded sequences are.
@@ -79,7 +80,7 @@ impl Asked {
             names: Vec::new(),
             presets: Preset::ALL.to_vec(),
             seed: SEED,
-            passing: false,
+            filming: Filming::Moving,
             tsv: None,
             data: None,
         };
@@ -95,7 +96,8 @@ impl Asked {
                 "--auto" => asked.work = Work::Automatic { solving: true },
                 "--find" => asked.work = Work::Automatic { solving: false },
                 "--focal" => asked.work = Work::Focal,
-                "--passing" => asked.passing = true,
+                "--passing" => asked.filming = Filming::Passing,
+                "--mild" => asked.filming = Filming::Mild,
                 "--export" => asked.work = Work::Export(value()?.into()),
                 "--tsv" => asked.tsv = Some(value()?.into()),
                 "--data" => asked.data = Some(value()?.into()),

@@ -18,15 +18,26 @@ const NOISES: [f32; 5] = [1.0, 2.0, 3.0, 4.0, 6.0];
 /// Their largest image motion in pixels.
 const DISPLACEMENTS: [f64; 5] = [2.0, 4.0, 6.0, 9.0, 12.0];
 
+/// How a random scene is filmed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Filming {
+    /// Bodies move.
+    Moving,
+    /// All stands still and is filmed in passing.
+    Passing,
+    /// Bodies move before a background of little relief.
+    Mild,
+}
+
 /// A recipe for a sequence.
 #[derive(Clone, Debug)]
 pub enum Case {
     /// One of [`scene::names`].
     BuiltIn(&'static str),
-    /// What [`scene::variant`] takes, or [`scene::passing`].
+    /// What [`scene::variant`], [`scene::passing`] and [`scene::mild`] take.
     Variant {
-        /// Whether all of it stands still and is filmed in passing.
-        passing: bool,
+        /// How it is filmed.
+        filming: Filming,
         /// "blocks" or "carousel".
         base: &'static str,
         /// Decides shapes, textures, lamp and motions.
@@ -46,9 +57,9 @@ impl Case {
 
     /// The variants whose seeds begin at `seed`. The two bases take turns; noise and displacement
     /// pass through their values at paces of their own, so that strong noise meets small motion too.
-    pub fn variants(seed: u64, passing: bool) -> Vec<Self> {
+    pub fn variants(seed: u64, filming: Filming) -> Vec<Self> {
         let variant = |k: u64| Self::Variant {
-            passing,
+            filming,
             base: ["blocks", "carousel"][(k % 2) as usize],
             seed: seed.wrapping_add(k),
             noise: NOISES[(k / 2 % 5) as usize],
@@ -62,12 +73,15 @@ impl Case {
         match self {
             Self::BuiltIn(name) => (*name).to_owned(),
             Self::Variant {
-                passing: true,
+                filming,
                 base,
                 seed,
                 ..
-            } => format!("passing-{base}-{seed}"),
-            Self::Variant { base, seed, .. } => format!("{base}-{seed}"),
+            } => match filming {
+                Filming::Moving => format!("{base}-{seed}"),
+                Filming::Passing => format!("passing-{base}-{seed}"),
+                Filming::Mild => format!("mild-{base}-{seed}"),
+            },
         }
     }
 
@@ -82,16 +96,16 @@ impl Case {
         let sequence = match *self {
             Self::BuiltIn(name) => scene::render(name, width, height),
             Self::Variant {
-                passing,
+                filming,
                 base,
                 seed,
                 noise,
                 displacement,
             } => {
-                let draw = if passing {
-                    scene::passing
-                } else {
-                    scene::variant
+                let draw = match filming {
+                    Filming::Moving => scene::variant,
+                    Filming::Passing => scene::passing,
+                    Filming::Mild => scene::mild,
                 };
                 draw(base, seed, noise, displacement, width, height)
             }

@@ -127,6 +127,7 @@ fn summaries(all: &[Measured], presets: &[Preset]) {
         "depth error: mean, %",
         "worst, %",
         "under half a flat guess",
+        "where confident, better than flat",
         "converged",
         "energy's rise, %",
     ]);
@@ -167,6 +168,7 @@ fn summary(which: Preset, group: &str, these: &[&Measured]) {
         percent(summary.depth_mean, 1),
         percent(summary.depth_worst, 1),
         summary.depth_halved.to_string(),
+        summary.certain.to_string(),
         summary.converged.to_string(),
         percent(summary.rise, 2),
     ]);

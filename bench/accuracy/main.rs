@@ -29,7 +29,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use ask::{Asked, HELP, Work};
-use cases::Case;
+use cases::{Case, Filming};
 use recorded::{RECORDED, Recorded};
 
 /// What goes wrong, as a sentence; it may come from another thread.
@@ -46,10 +46,10 @@ fn main() -> ExitCode {
 }
 
 fn run(asked: &Asked) -> Result<(), Failure> {
-    let cases = if asked.passing {
-        Case::variants(asked.seed, true)
-    } else {
-        [Case::built_in(), Case::variants(asked.seed, false)].concat()
+    let variants = Case::variants(asked.seed, asked.filming);
+    let cases = match asked.filming {
+        Filming::Moving => [Case::built_in(), variants].concat(),
+        Filming::Passing | Filming::Mild => variants,
     };
     let recorded: Vec<&Recorded> = match asked.data {
         Some(_) => RECORDED.iter().collect(),

@@ -43,6 +43,8 @@ pub struct Region {
     pub rotation_off: Option<f64>,
     /// Depth's relative error, and a flat guess's, where depth truly shows.
     pub depth: Option<[f64; 2]>,
+    /// Mean confidence over it.
+    pub confidence: f64,
 }
 
 /// How a translation compares with one that truly shows.
@@ -64,6 +66,8 @@ impl Figures {
             let (share, truly) = seen(truth, k);
             let reported = report.regions.get(k);
             let translates = truly.translates();
+            let own = truth.labels.data().iter().zip(found.confidence.data());
+            let own: Vec<f64> = own.filter(|(l, _)| usize::from(**l) == k).map(|(_, c)| f64::from(*c)).collect();
             Region {
                 share,
                 found_share: reported.map_or(0.0, |r| r.share),
@@ -78,6 +82,7 @@ impl Figures {
                 depth: (scores.depth_error[k].zip(scores.flat_depth_error[k]))
                     .filter(|_| translates)
                     .map(<[f64; 2]>::from),
+                confidence: own.iter().sum::<f64>() / own.len().max(1) as f64,
             }
         };
         Ok(Self {

@@ -42,6 +42,8 @@ pub struct Summary {
     pub depth_worst: Option<f64>,
     /// Regions whose depth is off by less than half of what a flat guess is.
     pub depth_halved: Count,
+    /// Regions whose confidence is above one half and whose depth is better than a flat guess, of those whose confidence is.
+    pub certain: Count,
     /// The largest relative rise of the energy over ten passes at most.
     pub rise: Option<f64>,
     /// Solves that converged.
@@ -67,10 +69,17 @@ impl Summary {
             depth_mean: mean(&errors),
             depth_worst: greatest(&errors),
             depth_halved: count(&depths, |d| d[0] < 0.5 * d[1]),
+            certain: certain(&regions),
             rise: greatest(&rises),
             converged: count(solves, |f| f.status == Status::Converged),
         }
     }
+}
+
+fn certain(regions: &[&Region]) -> Count {
+    let sure = regions.iter().filter(|r| r.confidence > 0.5);
+    let depths: Vec<[f64; 2]> = sure.filter_map(|r| r.depth).collect();
+    count(&depths, |d| d[0] < d[1])
 }
 
 fn headings(regions: &[&Region], size: impl Fn(&Region) -> bool, limit: f64) -> Count {

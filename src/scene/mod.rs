@@ -14,6 +14,7 @@ mod flight;
 mod head;
 mod lottery;
 mod noise;
+mod mild;
 mod passing;
 mod picture;
 mod shade;
@@ -35,6 +36,7 @@ use crate::interpretation::Interpretation;
 use stage::Stage;
 
 pub use film::{Film, render_film, variant_film};
+pub use mild::mild;
 pub use passing::passing;
 pub use variant::variant;
 
