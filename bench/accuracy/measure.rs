@@ -67,7 +67,10 @@ impl Figures {
             let reported = report.regions.get(k);
             let translates = truly.translates();
             let own = truth.labels.data().iter().zip(found.confidence.data());
-            let own: Vec<f64> = own.filter(|(l, _)| usize::from(**l) == k).map(|(_, c)| f64::from(*c)).collect();
+            let own: Vec<f64> = own
+                .filter(|(l, _)| usize::from(**l) == k)
+                .map(|(_, c)| f64::from(*c))
+                .collect();
             Region {
                 share,
                 found_share: reported.map_or(0.0, |r| r.share),

@@ -1,7 +1,7 @@
 //! Figures as text: Markdown tables, and words for what is not a number.
 
-use relievo::Status;
 use relievo::MotionModel;
+use relievo::Status;
 use relievo::options::Preset;
 
 use crate::measure::{Figures, Heading, Region};

@@ -20,9 +20,9 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::matches::Match;
 use super::rotation::{rotation_alone, turned};
-use crate::motion_model::MotionModel;
 use crate::camera::{Camera, RigidMotion};
 use crate::linalg::{hemisphere, solve, tangents};
+use crate::motion_model::MotionModel;
 
 /// Directions of T tried.
 const DIRECTIONS: usize = 120;

@@ -66,10 +66,7 @@ impl Layered {
                 occluded[at] = u8::from(!seen);
                 if seen && region.model.translates() {
                     let t = region.state.translation.as_vec3().to_array();
-                    let (px, py) = (
-                        (to_x - camera.cx as f32) / f,
-                        (to_y - camera.cy as f32) / f,
-                    );
+                    let (px, py) = ((to_x - camera.cx as f32) / f, (to_y - camera.cy as f32) / f);
                     let [gx, gy] = [&finest.gradient[0], &finest.gradient[1]].map(|g| g[at]);
                     slope[at] = f * (gx * (t[0] - px * t[2]) + gy * (t[1] - py * t[2]));
                 }

@@ -31,7 +31,7 @@ impl Layered {
     }
 
     fn is_unexplained(&self, k: usize) -> bool {
-        let most = UNEXPLAINED[1] as f32 * saturation(self.sigma);
+        let most = UNEXPLAINED[1] as f32 * saturation(self.label_sigma);
         let owned = self.labels.data().iter().zip(self.memory.costs[k].data());
         let (mut all, mut bad) = (0usize, 0usize);
         for (_, &cost) in owned.filter(|(l, _)| usize::from(**l) == k) {
@@ -71,7 +71,7 @@ impl Layered {
                 surface.at(x as f32, y as f32)
             });
             let after = self.mean_cost(k, &refined.motion, |x, y| refined.rho[(x, y)]);
-                if after < GAIN * before {
+            if after < GAIN * before {
                 adopted.push((k, refined));
             }
         }
@@ -93,7 +93,13 @@ impl Layered {
         state.translation = motion.translation;
         state.rotation = motion.matrix();
         let target = state.pose().target(scale);
-        let Some(Window { left, top, width, height }) = self.regions[k].window else {
+        let Some(Window {
+            left,
+            top,
+            width,
+            height,
+        }) = self.regions[k].window
+        else {
             return f64::INFINITY;
         };
         let most = (CUT * self.sigma).powi(2);

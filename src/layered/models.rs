@@ -77,7 +77,11 @@ impl Problem<'_> {
         price_factor: f64,
         (estimator, equations): (&mut Estimator, &mut NormalEquations),
     ) -> Candidate {
-        let steps = if model == MotionModel::Still { 0 } else { steps };
+        let steps = if model == MotionModel::Still {
+            0
+        } else {
+            steps
+        };
         let outcome = estimator.improve(self, &mut state, free(model), steps, equations, false);
         let relief = if model.translates() {
             equations.relief(&state.surface)
@@ -132,8 +136,13 @@ impl Problem<'_> {
                 };
                 start(model, state, &mut found);
             }
-            let best = found[first..].iter().min_by(|a, b| a.score.total_cmp(&b.score));
-            if let Some(mirror) = best.filter(|b| b.model.rotates()).map(|b| mirrored(&b.state)) {
+            let best = found[first..]
+                .iter()
+                .min_by(|a, b| a.score.total_cmp(&b.score));
+            if let Some(mirror) = best
+                .filter(|b| b.model.rotates())
+                .map(|b| mirrored(&b.state))
+            {
                 start(model, mirror, &mut found);
             }
         }
@@ -186,9 +195,9 @@ pub(super) fn ambiguous(candidates: &[Candidate]) -> bool {
     };
     let direction = best.state.translation;
     best.model.translates()
-        && rest.iter().any(|c| {
-            points_elsewhere(c, direction) && c.score < best.score + EQUAL
-        })
+        && rest
+            .iter()
+            .any(|c| points_elsewhere(c, direction) && c.score < best.score + EQUAL)
 }
 
 /// The explanation that differs by perspective alone: hollow where the other bulges, and turning the other way.

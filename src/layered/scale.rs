@@ -8,7 +8,8 @@
 //! ```
 //!
 //! whose value and gradient are read at any place. Both frames are smoothed first: the noise that a spline lets
-//! through depends on where between pixels it is read, which draws motion towards whole pixels. Grey levels, pixels
+//! through depends on where between pixels it is read, which draws motion towards whole pixels. Labels are judged by
+//! frames that are not smoothed, or outlines would be mixtures of both sides. Grey levels, pixels
 //! of this scale; a pixel of the next coarser scale covers 2×2 of this one.
 
 use wide::f32x4;
@@ -35,6 +36,10 @@ pub(crate) struct Scale {
     pub gradient: [Grid<f32>; 2],
     /// Coefficients of the second frame's spline, `PAD` pixels larger on each side.
     second: Grid<f32>,
+    /// Brightness of the first frame before it was smoothed.
+    pub plain: Grid<f32>,
+    /// The spline of the second frame before it was smoothed.
+    plain_second: Grid<f32>,
 }
 
 /// All scales, the finest first, of frames smoothed by `smoothing` pixels, the first in the light of the second.
@@ -44,22 +49,23 @@ pub(crate) fn pyramid(
     smoothing: f64,
     lighting: Lighting,
 ) -> Vec<Scale> {
-    let mut first = blur(&pair.first().grey, smoothing);
-    let mut second = blur(&pair.second().grey, smoothing);
     let (gain, offset) = (lighting.gain as f32, lighting.offset as f32);
-    for value in first.data_mut() {
-        *value = gain * *value + offset;
-    }
+    let mut plain = [
+        pair.first().grey.map(|v| gain * v + offset),
+        pair.second().grey.clone(),
+    ];
+    let mut smooth = [blur(&plain[0], smoothing), blur(&plain[1], smoothing)];
     let mut camera = camera;
     let mut scales = Vec::new();
     loop {
-        let (w, h) = (first.width(), first.height());
-        let coarser = (w.min(h) / 2 >= SHORTEST).then(|| (halved(&first), halved(&second)));
-        scales.push(Scale::new(first, &second, camera));
+        let (w, h) = (plain[0].width(), plain[0].height());
+        let half = |frames: &[Grid<f32>; 2]| [halved(&frames[0]), halved(&frames[1])];
+        let coarser = (w.min(h) / 2 >= SHORTEST).then(|| (half(&smooth), half(&plain)));
+        scales.push(Scale::new(smooth, plain, camera));
         let Some(next) = coarser else {
             return scales;
         };
-        (first, second) = next;
+        (smooth, plain) = next;
         camera = Camera {
             focal: camera.focal / 2.0,
             cx: (camera.cx - 0.5) / 2.0,
@@ -69,14 +75,17 @@ pub(crate) fn pyramid(
 }
 
 impl Scale {
-    fn new(first: Grid<f32>, second: &Grid<f32>, camera: Camera) -> Self {
+    fn new(smooth: [Grid<f32>; 2], plain: [Grid<f32>; 2], camera: Camera) -> Self {
+        let ([first, second], [plain, plain_second]) = (smooth, plain);
         Self {
             width: first.width(),
             height: first.height(),
             camera,
             gradient: gradient(&first),
-            second: spline(second),
+            second: spline(&second),
             first,
+            plain,
+            plain_second: spline(&plain_second),
         }
     }
 
@@ -107,13 +116,13 @@ impl Scale {
     /// Brightness of the second frame at (x, y), which [`Self::contains`].
     #[inline(always)]
     pub fn brightness(&self, x: f32, y: f32) -> f32 {
-        let (xi, tx, yi, ty) = cell(x, y);
-        let by = basis(ty);
-        let mut sum = f32x4::ZERO;
-        for (j, b) in by.into_iter().enumerate() {
-            sum += self.taps(xi, yi + j) * f32x4::splat(b);
-        }
-        (sum * f32x4::new(basis(tx))).reduce_add()
+        value(&self.second, x, y)
+    }
+
+    /// The same of the second frame before it was smoothed.
+    #[inline(always)]
+    pub fn plain_brightness(&self, x: f32, y: f32) -> f32 {
+        value(&self.plain_second, x, y)
     }
 
     /// The four columns around x with the rows summed by β and by β′, and the weights β and β′ of the columns.
@@ -123,23 +132,30 @@ impl Scale {
         let (by, dy) = (basis(ty), slope(ty));
         let (mut sum, mut down) = (f32x4::ZERO, f32x4::ZERO);
         for j in 0..4 {
-            let row = self.taps(xi, yi + j);
+            let row = taps(&self.second, xi, yi + j);
             sum += row * f32x4::splat(by[j]);
             down += row * f32x4::splat(dy[j]);
         }
-        (
-            [sum, down],
-            f32x4::new(basis(tx)),
-            f32x4::new(slope(tx)),
-        )
+        ([sum, down], f32x4::new(basis(tx)), f32x4::new(slope(tx)))
     }
+}
 
-    #[inline(always)]
-    fn taps(&self, x: usize, y: usize) -> f32x4 {
-        let at = y * self.second.width() + x;
-        let row: [f32; 4] = self.second.data()[at..at + 4].try_into().unwrap_or_default();
-        f32x4::new(row)
+/// The spline's value at (x, y).
+#[inline(always)]
+fn value(spline: &Grid<f32>, x: f32, y: f32) -> f32 {
+    let (xi, tx, yi, ty) = cell(x, y);
+    let mut sum = f32x4::ZERO;
+    for (j, b) in basis(ty).into_iter().enumerate() {
+        sum += taps(spline, xi, yi + j) * f32x4::splat(b);
     }
+    (sum * f32x4::new(basis(tx))).reduce_add()
+}
+
+#[inline(always)]
+fn taps(spline: &Grid<f32>, x: usize, y: usize) -> f32x4 {
+    let at = y * spline.width() + x;
+    let row: [f32; 4] = spline.data()[at..at + 4].try_into().unwrap_or_default();
+    f32x4::new(row)
 }
 
 /// First column and row of the four that matter at (x, y) in the padded spline, and the fractions past the second.
@@ -310,7 +326,8 @@ mod tests {
 
     fn scale(picture: &Grid<f32>) -> Scale {
         let camera = Camera::centred(50.0, picture.width(), picture.height()).unwrap();
-        Scale::new(picture.clone(), picture, camera)
+        let frames = || [picture.clone(), picture.clone()];
+        Scale::new(frames(), frames(), camera)
     }
 
     #[test]

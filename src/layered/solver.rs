@@ -78,6 +78,8 @@ pub(crate) struct Layered {
     pub(super) regions: Vec<Region>,
     /// σ of the residuals at this scale, grey levels.
     pub(super) sigma: f32,
+    /// The same of the unsmoothed frames, by which labels are judged.
+    pub(super) label_sigma: f32,
     pub(super) estimator: Estimator,
     pub(super) memory: Memory,
     pub(super) energy: Energy,
@@ -113,6 +115,7 @@ impl Layered {
             offered: Grid::new(1, 1, super::label::NOBODY),
             regions: Vec::new(),
             sigma: UNKNOWN_SIGMA,
+            label_sigma: UNKNOWN_SIGMA,
             estimator: Estimator::default(),
             memory: Memory::default(),
             energy: Energy::default(),

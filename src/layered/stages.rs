@@ -111,7 +111,11 @@ impl Layered {
                 prior,
                 sigma: self.sigma,
             };
-            let free = if moving { free(region.model) } else { Free::Depth };
+            let free = if moving {
+                free(region.model)
+            } else {
+                Free::Depth
+            };
             let moves = if moving {
                 region.model != MotionModel::Still
             } else {
@@ -168,14 +172,18 @@ impl Layered {
     pub(super) fn label(&mut self, options: &Options) {
         let (scale, level) = (&self.scales[self.level], self.level);
         for (region, residuals) in self.regions.iter().zip(&mut self.memory.costs) {
-            rigid_residual(scale, level, region, self.sigma, residuals);
+            rigid_residual(scale, level, region, residuals);
         }
+        if !matches!(self.phase, Phase::Rigid(done) if done > 0) {
+            self.label_sigma = self.memory.spread(&self.labels).max(LEAST_SIGMA);
+        }
+        self.memory.charge(self.label_sigma);
         let occlusion = (options.occlusion && self.regions.len() > 1).then(|| {
             let states: Vec<&State> = self.regions.iter().map(|r| &r.state).collect();
             Occlusion::of(scale, level, &states, &self.labels)
         });
         if let Some(occlusion) = occlusion {
-            self.memory.find_chance(scale, self.sigma);
+            self.memory.find_chance(scale, self.label_sigma);
             let background = &self.regions[0].state;
             let (chance, costs) = (&self.memory.chance, &mut self.memory.costs[0]);
             let hides = occlusion.excuse(scale, level, background, chance, costs);
@@ -196,15 +204,23 @@ impl Layered {
     pub(super) fn find_costs(&mut self) {
         let scale = &self.scales[self.level];
         for (region, costs) in self.regions.iter().zip(&mut self.memory.costs) {
-            rigid_residual(scale, self.level, region, self.sigma, costs);
+            rigid_residual(scale, self.level, region, costs);
         }
-        self.memory.average(true);
+        self.label_sigma = self.memory.spread(&self.labels).max(LEAST_SIGMA);
+        self.memory.charge(self.label_sigma);
     }
 
     /// Gives every pixel to a region by the costs in memory.
     pub(super) fn share_out(&mut self, pull: Option<f32>, options: &Options) {
-        self.memory.average(pull.is_some());
-        let most = super::label::saturation(self.sigma);
+        if pull.is_none() {
+            self.memory.average();
+        }
+        let sigma = if pull.is_some() {
+            self.label_sigma
+        } else {
+            self.sigma
+        };
+        let most = super::label::saturation(sigma);
         let beta = match options.lambda {
             Some(lambda) => (lambda / LENGTH_OF_PULL) as f32,
             None => pull.unwrap_or(PLANAR_PULL) * most,
@@ -215,7 +231,8 @@ impl Layered {
             sigma: f64::from(self.sigma),
         };
         if self.regions.len() > 1 {
-            self.memory.partition(beta, pull.is_some() && self.level > 0, &mut self.labels);
+            self.memory
+                .partition(beta, pull.is_some() && self.level > 0, &mut self.labels);
             let [data, length] = self.memory.energy(beta, &self.labels);
             (self.energy.data, self.energy.length) = (data, length);
         } else if pull.is_none() {
@@ -223,7 +240,7 @@ impl Layered {
         }
         if pull.is_some() {
             let memory = &self.memory;
-            memory.offer(self.sigma, &self.labels, &mut self.offered);
+            memory.offer(self.label_sigma, &self.labels, &mut self.offered);
         }
         self.find_windows();
     }

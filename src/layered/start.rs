@@ -46,7 +46,9 @@ impl Layered {
                 Degree::Plane
             };
             let support = Support::of(&self.labels, k, window);
-            region.flow.fit(&self.scales[self.level], &support, degree, STEPS);
+            region
+                .flow
+                .fit(&self.scales[self.level], &support, degree, STEPS);
         }
     }
 
@@ -112,5 +114,7 @@ impl Layered {
 /// The window around a label.
 fn around(labels: &Grid<u8>, k: usize) -> Option<Window> {
     let data = labels.data();
-    Window::around(labels.width(), labels.height(), 0, |i| usize::from(data[i]) == k)
+    Window::around(labels.width(), labels.height(), 0, |i| {
+        usize::from(data[i]) == k
+    })
 }

@@ -53,7 +53,11 @@ impl Layered {
         self.level = self.first;
         self.put_labels(&labels);
         self.warm = known;
-        self.phase = if known { Phase::Rigid(0) } else { Phase::Planar(0) };
+        self.phase = if known {
+            Phase::Rigid(0)
+        } else {
+            Phase::Planar(0)
+        };
         for region in &mut self.regions {
             region.dense = None;
             region.alternatives.clear();

@@ -146,10 +146,13 @@ impl Report {
 }
 
 fn warnings(regions: &[RegionReport]) -> Vec<String> {
-    let vanished = regions.iter().filter(|r| r.pixels == 0).map(|r| match r.label {
-        0 => "The curves have taken the whole frame: no background is left.".to_owned(),
-        k => format!("Curve {k} has vanished: nothing moves differently where it was drawn."),
-    });
+    let vanished = regions
+        .iter()
+        .filter(|r| r.pixels == 0)
+        .map(|r| match r.label {
+            0 => "The curves have taken the whole frame: no background is left.".to_owned(),
+            k => format!("Curve {k} has vanished: nothing moves differently where it was drawn."),
+        });
     let ambiguous = regions.iter().filter(|r| r.ambiguous && r.pixels > 0).map(|r| {
         let name = match r.label {
             0 => "The background".to_owned(),

@@ -9,12 +9,12 @@
 use super::lattice::Lattice;
 use super::likeness::likeness;
 use super::patches::patches;
+use super::scale::{SMALLEST, Scale};
 use super::sight::Sights;
 use super::surface::Surface;
 use super::surfaces::{Surfaces, windows};
 use crate::camera::Camera;
 use crate::frames::{FramePair, blur, halved, halved_camera};
-use super::scale::{SMALLEST, Scale};
 
 /// Frames of more pixels are halved before anything else.
 const PIXELS: usize = 352 * 288;

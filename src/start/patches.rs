@@ -5,8 +5,8 @@
 //! w moves by less than a hundredth of a pixel. G, over the residual's variance, is also how well each
 //! direction of w is known: patches on a straight edge say little along it, and are not trusted there.
 
-use crate::grid::Grid;
 use super::scale::Scale;
+use crate::grid::Grid;
 
 /// Half the side of a patch, in pixels.
 pub(super) const HALF: usize = 4;

@@ -61,8 +61,7 @@ impl Target {
         let [cx, cy] = self.centre;
         let (x, y) = ((x as f32 - cx) * share, (y as f32 - cy) * share);
         let (r, t) = (&self.pose.rotation, self.pose.translation);
-        let q: [f32; 3] =
-            std::array::from_fn(|c| r[c][0] * x + r[c][1] * y + r[c][2] + rho * t[c]);
+        let q: [f32; 3] = std::array::from_fn(|c| r[c][0] * x + r[c][1] * y + r[c][2] + rho * t[c]);
         let near = self.focal / q[2].max(1e-3);
         (q[0] * near + cx, q[1] * near + cy)
     }
@@ -107,8 +106,6 @@ pub(crate) struct NormalEquations {
     pub motion: [[f64; 6]; 6],
     /// Σ c(e), grey levels².
     pub cost: f64,
-    /// Pixels that could be compared.
-    pub pixels: usize,
     /// 1.4826 times the median |e|, grey levels.
     pub spread: f32,
     rows: Rows,
@@ -167,7 +164,12 @@ impl NormalEquations {
     pub fn gather(&mut self, problem: &Problem, state: &State) {
         let (scale, level, support) = (problem.scale, problem.level, problem.support);
         let (pose, surface) = (&state.pose(), &state.surface);
-        let Window { left, top, width, height } = support.window;
+        let Window {
+            left,
+            top,
+            width,
+            height,
+        } = support.window;
         self.rows.fit(width);
         self.rows.clear_sums();
         self.cells.clear();
@@ -197,8 +199,7 @@ impl NormalEquations {
                 self.motion[a][b] = lanes[a][b].iter().map(|&v| f64::from(v)).sum();
             }
         }
-        self.pixels = histogram.iter().sum::<u32>() as usize;
-        self.spread = spread(&histogram, self.pixels);
+        self.spread = spread(&histogram);
     }
 
     /// Adds the sums down a row of cells to the cells.
@@ -274,7 +275,9 @@ impl Rows {
             scale.camera.cy as f32,
         );
         let labels = &support.labels.row(y)[left..left + n];
-        let offered = support.offered.map_or(labels, |o| &o.row(y)[left..left + n]);
+        let offered = support
+            .offered
+            .map_or(labels, |o| &o.row(y)[left..left + n]);
         let first = &scale.first.row(y)[left..left + n];
         let [px, py, _] = &self.place;
         let [gx, gy, _] = &mut self.lever;
@@ -404,7 +407,8 @@ impl Rows {
 }
 
 /// 1.4826 times the median of a histogram of |e|.
-fn spread(histogram: &[u32], count: usize) -> f32 {
+fn spread(histogram: &[u32]) -> f32 {
+    let count: usize = histogram.iter().map(|&n| n as usize).sum();
     let mut below = 0;
     let median = histogram.iter().position(|&n| {
         below += n as usize;

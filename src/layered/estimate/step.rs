@@ -67,7 +67,6 @@ pub(crate) struct Outcome {
     pub energy: f64,
     /// Σ c(e), grey levels².
     pub data: f64,
-    pub pixels: usize,
     /// σ of the residuals, grey levels.
     pub spread: f32,
 }
@@ -103,7 +102,11 @@ impl State {
             (DVec3::ZERO, DVec3::ZERO)
         };
         Pose {
-            rotation: self.rotation.transpose().to_cols_array_2d().map(|row| row.map(|v| v as f32)),
+            rotation: self
+                .rotation
+                .transpose()
+                .to_cols_array_2d()
+                .map(|row| row.map(|v| v as f32)),
             translation: self.translation.to_array().map(|v| v as f32),
             tangent: [b, c].map(|v| v.to_array().map(|v| v as f32)),
         }
@@ -197,7 +200,13 @@ impl Estimator {
     }
 
     /// The band matrix and the right-hand sides.
-    fn assemble(&mut self, equations: &NormalEquations, surface: &Surface, prior: &Prior, variance: f32) {
+    fn assemble(
+        &mut self,
+        equations: &NormalEquations,
+        surface: &Surface,
+        prior: &Prior,
+        variance: f32,
+    ) {
         let nodes = surface.rho.len();
         self.band.clear(nodes, surface.bandwidth());
         self.cross.clear();
@@ -218,7 +227,11 @@ impl Estimator {
         let band = &mut self.band;
         let cross = &mut self.cross;
         for_each_curvature(surface, |nodes, factors, share| {
-            let d: f32 = nodes.iter().zip(factors).map(|(&n, f)| f * surface.rho[n]).sum();
+            let d: f32 = nodes
+                .iter()
+                .zip(factors)
+                .map(|(&n, f)| f * surface.rho[n])
+                .sum();
             let weight = share * curvature_weight(d, surface.spacing, prior);
             for (p, &node) in nodes.iter().enumerate() {
                 for (q, &other) in nodes[..=p].iter().enumerate() {
@@ -235,7 +248,13 @@ impl Estimator {
     }
 
     /// Applies a step of the motion, and the surface's answer to it.
-    fn apply(&mut self, equations: &NormalEquations, state: &mut State, delta: [f64; 5], moves_depth: bool) {
+    fn apply(
+        &mut self,
+        equations: &NormalEquations,
+        state: &mut State,
+        delta: [f64; 5],
+        moves_depth: bool,
+    ) {
         let pose = state.pose();
         let tangent = pose.tangent.map(|b| DVec3::from_array(b.map(f64::from)));
         let shift = tangent[0] * delta[0] + tangent[1] * delta[1];
@@ -303,7 +322,12 @@ fn corners(surface: &Surface, column: usize, row: usize) -> [usize; 4] {
 }
 
 /// Solves for the motions that are free; nothing where the data leave them open.
-fn motion_step(reduced: &[[f64; 6]; 6], full: &[[f64; 6]; 6], free: Free, variance: f64) -> [f64; 5] {
+fn motion_step(
+    reduced: &[[f64; 6]; 6],
+    full: &[[f64; 6]; 6],
+    free: Free,
+    variance: f64,
+) -> [f64; 5] {
     let is_free = |i: usize| match free {
         Free::Depth => false,
         Free::Translation => i < 2,
@@ -332,7 +356,6 @@ fn outcome_of(equations: &NormalEquations, state: &State, prior: &Prior, sigma: 
     Outcome {
         energy: equations.cost + surface_energy(&state.surface, prior, sigma),
         data: equations.cost,
-        pixels: equations.pixels,
         spread: equations.spread,
     }
 }
@@ -347,7 +370,11 @@ pub(crate) fn surface_energy(surface: &Surface, prior: &Prior, sigma: f32) -> f6
     let edge = prior.epsilon as f32 * s;
     let mut sum = 0.0;
     for_each_curvature(surface, |nodes, factors, share| {
-        let d: f32 = nodes.iter().zip(factors).map(|(&n, f)| f * surface.rho[n]).sum();
+        let d: f32 = nodes
+            .iter()
+            .zip(factors)
+            .map(|(&n, f)| f * surface.rho[n])
+            .sum();
         let square = match prior.diffusion {
             Diffusion::Isotropic => d * d,
             Diffusion::Anisotropic => 2.0 * edge * edge * ((1.0 + (d / edge).powi(2)).sqrt() - 1.0),

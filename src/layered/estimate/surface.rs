@@ -5,7 +5,6 @@
 //! pixels, so that every scale sees the same surface. ρ = 1/Z in units in which the region's mean is 1; it may be 0
 //! (infinitely far) or, under a slightly wrong ω, less.
 
-use crate::grid::Grid;
 use crate::window::Window;
 
 /// Least and greatest ρ of a control point.
@@ -121,7 +120,10 @@ impl Surface {
             let (low, high) = (rho(run.column), rho(run.column + 1));
             let step = (high - low) / spacing as f32;
             let first = low + step * (run.offset as f32 + 0.5);
-            for (n, out) in out[run.start..run.start + run.length].iter_mut().enumerate() {
+            for (n, out) in out[run.start..run.start + run.length]
+                .iter_mut()
+                .enumerate()
+            {
                 *out = first + step * n as f32;
             }
         });
@@ -152,11 +154,6 @@ impl Surface {
             });
             start += length;
         }
-    }
-
-    /// ρ at every pixel of a frame of the finest scale's size.
-    pub fn dense(&self, width: usize, height: usize) -> Grid<f32> {
-        Grid::from_fn(width, height, |x, y| self.at(x as f32, y as f32))
     }
 }
 

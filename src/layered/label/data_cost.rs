@@ -29,10 +29,10 @@ fn cost(e: f32, most: f32) -> f32 {
     square * most / (most + square)
 }
 
-/// Costs under a region's motion and surface; the largest where the surface does not reach.
-pub(crate) fn rigid_residual(scale: &Scale, level: usize, region: &Region, sigma: f32, out: &mut Grid<f32>) {
-    let most = saturation(sigma);
-    out.data_mut().fill(most);
+/// Residuals of the unsmoothed frames under a region's motion and surface: infinite where the surface does not reach, not
+/// a number where it leads out of the frame.
+pub(crate) fn rigid_residual(scale: &Scale, level: usize, region: &Region, out: &mut Grid<f32>) {
+    out.data_mut().fill(f32::INFINITY);
     if region.window.is_none() {
         return;
     }
@@ -42,16 +42,30 @@ pub(crate) fn rigid_residual(scale: &Scale, level: usize, region: &Region, sigma
     let mut rho = vec![1.0; window.width];
     for y in window.top..window.top + window.height {
         state.surface.row(level, y, window.left, &mut rho);
-        let first = &scale.first.row(y)[window.left..window.left + window.width];
+        let first = &scale.plain.row(y)[window.left..window.left + window.width];
         let out = &mut out.row_mut(y)[window.left..window.left + window.width];
         for (n, rho) in rho.iter().enumerate() {
             let (x, y) = target.of(window.left + n, y, *rho);
             out[n] = if scale.contains(x, y) {
-                cost(scale.brightness(x, y) - first[n], most)
+                scale.plain_brightness(x, y) - first[n]
             } else {
-                LEAVES * most
+                f32::NAN
             };
         }
+    }
+}
+
+/// Residuals become costs.
+pub(super) fn charge(residuals: &mut Grid<f32>, sigma: f32) {
+    let most = saturation(sigma);
+    for e in residuals.data_mut() {
+        *e = if e.is_nan() {
+            LEAVES * most
+        } else if e.is_infinite() {
+            most
+        } else {
+            cost(*e, most)
+        };
     }
 }
 
@@ -81,7 +95,7 @@ pub(crate) fn planar_cost(scale: &Scale, region: &Region, sigma: f32, out: &mut 
 
 /// What it costs to match by chance: the mean cost of the first frame against itself, [`SHIFT`] pixels away.
 pub(super) fn chance_cost(scale: &Scale, sigma: f32, out: &mut Grid<f32>) {
-    let (most, first) = (saturation(sigma), &scale.first);
+    let (most, first) = (saturation(sigma), &scale.plain);
     let (width, height) = (scale.width, scale.height);
     for y in 0..height {
         let row = first.row(y);

@@ -1,13 +1,13 @@
 //! The planes that labelling works on, one set for each scale.
 
-use super::data_cost::chance_cost;
+use super::data_cost::{chance_cost, charge};
 use super::partition::{argmin, box_blur, outline_energy, partition, pull};
 use super::{NOBODY, saturation};
 use crate::grid::Grid;
 use crate::layered::scale::Scale;
 
-/// Half the side of the window over which costs are averaged: while regions are planes, and later.
-const WINDOW: [usize; 2] = [3, 1];
+/// Half the side of the window over which costs are averaged while regions are planes.
+const PLANAR_WINDOW: usize = 3;
 /// Half the side of the window over which chance is averaged, twice.
 const CHANCE_WINDOW: usize = 3;
 /// What a hidden pixel is charged, in units of what it costs to match by chance.
@@ -27,6 +27,7 @@ pub(in crate::layered) struct Memory {
     pub pulls: Vec<Grid<f32>>,
     pub chance: Grid<f32>,
     spare: Grid<f32>,
+    sizes: Vec<f32>,
 }
 
 impl Default for Memory {
@@ -37,6 +38,7 @@ impl Default for Memory {
             pulls: Vec::new(),
             chance: empty.clone(),
             spare: empty,
+            sizes: Vec::new(),
         }
     }
 }
@@ -59,10 +61,35 @@ impl Memory {
         self.chance.data_mut().iter_mut().for_each(|c| *c *= HIDDEN);
     }
 
-    /// Averages costs over a few pixels: one alone tells little.
-    pub fn average(&mut self, rigid: bool) {
+    /// Averages costs over a few pixels: while regions are planes, one alone tells little.
+    pub fn average(&mut self) {
         for costs in &mut self.costs {
-            box_blur(costs, WINDOW[usize::from(rigid)], &mut self.spare);
+            box_blur(costs, PLANAR_WINDOW, &mut self.spare);
+        }
+    }
+
+    /// σ of the residuals in place of costs, over the pixels that each region owns; that of the region with the most.
+    pub fn spread(&mut self, labels: &Grid<u8>) -> f32 {
+        let mut most = 0.0f32;
+        let sizes = &mut self.sizes;
+        for (k, residuals) in self.costs.iter().enumerate() {
+            sizes.clear();
+            let owned = labels.data().iter().zip(residuals.data());
+            let owned = owned.filter(|(l, e)| usize::from(**l) == k && e.is_finite());
+            sizes.extend(owned.map(|(_, e)| e.abs()));
+            if sizes.len() > 1 {
+                let middle = sizes.len() / 2;
+                let median = *sizes.select_nth_unstable_by(middle, f32::total_cmp).1;
+                most = most.max(1.4826 * median);
+            }
+        }
+        most
+    }
+
+    /// Residuals become costs.
+    pub fn charge(&mut self, sigma: f32) {
+        for costs in &mut self.costs {
+            charge(costs, sigma);
         }
     }
 

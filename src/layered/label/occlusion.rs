@@ -51,10 +51,8 @@ impl Occlusion {
     /// The regions in front that are seen at a place of the second frame.
     pub fn at(&self, x: f32, y: f32) -> u8 {
         let (x, y) = (x.round(), y.round());
-        let inside = x >= 0.0
-            && y >= 0.0
-            && x < self.seen.width() as f32
-            && y < self.seen.height() as f32;
+        let inside =
+            x >= 0.0 && y >= 0.0 && x < self.seen.width() as f32 && y < self.seen.height() as f32;
         if inside {
             self.seen[(x as usize, y as usize)]
         } else {

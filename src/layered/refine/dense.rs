@@ -52,12 +52,8 @@ const FARTHEST: f32 = 1.0;
 pub struct Refined {
     /// ρ; its mean over the support is 1.
     pub rho: Grid<f32>,
-    /// Pixels of the support that are hidden in the second frame, or outside of it.
-    pub hidden: Grid<bool>,
     /// The motion; |T| is that which belongs to ρ.
     pub motion: RigidMotion,
-    /// Robust standard deviation of what is left, grey levels of the smoothed frames.
-    pub sigma: f32,
 }
 
 /// Refines ρ from `start` for the pixels of `support`, and the motion. Frames are grey levels; all grids are of one
@@ -96,9 +92,7 @@ pub fn refine(
     }
     let mut refined = Refined {
         rho: dense.rho,
-        hidden: dense.hidden,
         motion,
-        sigma: dense.sigma,
     };
     unit_mean(&mut refined.rho, support, &mut refined.motion);
     refined
