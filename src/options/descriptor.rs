@@ -71,6 +71,8 @@ pub struct Descriptor {
     pub presets: &'static [Preset],
     /// Its kind and range.
     #[serde(flatten)]
+    // A union cannot be extended by an interface; named so, it becomes an intersection.
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "Control"))]
     pub control: Control,
 }
 

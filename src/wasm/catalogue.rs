@@ -15,6 +15,7 @@ use crate::view::{self, Choice, GLASSES, LABEL_COLOURS, PALETTES, View, ViewPara
 #[derive(Serialize, Tsify)]
 struct OptionEntry {
     #[serde(flatten)]
+    #[tsify(type = "Descriptor")]
     descriptor: &'static Descriptor,
     /// Its value, by preset.
     #[tsify(type = "Record<Preset, string | number | boolean | null>")]
