@@ -79,9 +79,10 @@ function settings(core, all) {
     .map((group) => {
       const own = catalogue(core).filter(({ presets }) => String(presets) === String(group));
       const rows = own.map((option) => describe(option, group));
-      return own.length ? `\nWith --preset ${group.join(" or ")}:\n${table(rows)}\n` : "";
+      return own.length ? `\nWith --preset ${group.join(" or ")}:\n${table(rows)}` : "";
     })
-    .join("");
+    .filter((text) => text)
+    .join("\n");
 }
 
 /**
