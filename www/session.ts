@@ -109,9 +109,10 @@ export async function run(): Promise<void> {
   if (done) announce("Running.");
 }
 
-/** Another pace, also while it runs. */
-export async function setPace(pace: number): Promise<void> {
-  store.update({ pace });
+/** Tells the worker of another pace; a run that begins takes its own along. */
+export async function keepPace(): Promise<void> {
+  if (!store.state.running) return;
+  const pace = paceOf(store.state);
   await attempt(null, () => client.call((service) => service.pace(pace)));
 }
 

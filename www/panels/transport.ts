@@ -3,7 +3,7 @@
 import { byId, icon, make } from "../dom";
 import { number, seconds } from "../format";
 import { PACES, paceOf } from "../pace";
-import { cancel, pause, reset, run, setPace, step } from "../session";
+import { cancel, keepPace, pause, reset, run, step } from "../session";
 import { store, type State } from "../store";
 import { expectation } from "../wording";
 import type { Part, Status } from "../worker/protocol";
@@ -22,10 +22,13 @@ export function mountTransport(): void {
 
   const pace = byId<HTMLSelectElement>("pace");
   pace.append(...PACES.map(({ value, label }) => make("option", { value }, label)));
-  pace.addEventListener("change", () => void setPace(Number(pace.value)));
+  pace.addEventListener("change", () => store.update({ pace: Number(pace.value) }));
   store.watch(
     (state) => [paceOf(state)],
-    (state) => (pace.value = String(paceOf(state))),
+    (state) => {
+      pace.value = String(paceOf(state));
+      void keepPace();
+    },
   );
 
   store.watch(
