@@ -68,8 +68,8 @@ export function rebuild(): void {
           label: "Energy",
           stroke: themeColour("--cyan"),
           width: 2,
-          // One pass makes no line.
-          points: { show: (_, __, first, last) => first === last, size: 6 },
+          // A pass between two breaks makes no line.
+          points: { show: true, size: 5 },
         },
       ],
       hooks: { draw: [markBreaks] },
@@ -130,16 +130,9 @@ function inWords({ report }: Readonly<State>): string {
   const part = (value: number) => percent(value / (total || 1), 0);
   const left = `Of what is left, ${part(data)} is misfit of the frames, ${part(smoothness)} depth's roughness, ${part(length)} length of curves.`;
   // What the passes came to, as the line shows it: curves moved since have an energy of their own.
-  const fall = (start: number, end: number) => {
-    const passes = report.history.slice(start, end).map((energy) => number(energy));
-    const [first = number(total), ...later] = passes;
-    return later.length > 0 ? `from ${first} to ${later.at(-1)}` : first;
-  };
-  const all = report.history.length;
-  const begun = breaks(report);
-  if (begun.length === 0) {
-    return `${sentence(fall(0, all) + (all === 1 ? " after one pass" : ""))} ${left}`;
-  }
-  const falls = [0, ...begun].map((after, i) => fall(after, begun[i] ?? all));
-  return `${sentence(falls.join(", then "))} ${left} At a dashed line a finer scale begins, weights are chosen anew or curves were drawn: energy can be compared only between two lines.`;
+  const since = breaks(report).at(-1) ?? 0;
+  const [first = number(total), ...later] = report.history.slice(since).map((e) => number(e));
+  const fall = later.length > 0 ? `from ${first} to ${later.at(-1)}` : `${first} after one pass`;
+  if (since === 0) return `${sentence(fall)} ${left}`;
+  return `Since the last dashed line ${fall}. ${left} At a dashed line a finer scale begins, weights are chosen anew or curves were drawn: energy can be compared only between two lines.`;
 }

@@ -139,17 +139,9 @@ const briefly = (shape: Shape) =>
     ? `${Math.round(shape.x)}, ${Math.round(shape.y)} · radius ${Math.round(shape.r)}`
     : `${shape.points.length} corners`;
 
-/** Models as a sentence has them. */
-const MODELS: Record<RegionReport["model"], string> = {
-  still: "still",
-  rotation: "rotation",
-  translation: "translation",
-  full: "full motion",
-};
-
 /** Curves are in front of the background anyway: only other curves are worth a word. */
 function facing({ pixels, share, model, ambiguous, in_front_of }: RegionReport): string {
-  const facts = [`${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)}`, MODELS[model]];
+  const facts: string[] = [`${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)}`, model];
   if (ambiguous) facts.push("two explanations fit equally");
   const curves = in_front_of.filter((label) => label > 0);
   if (curves.length > 0) facts.push(`in front of ${curves.join(" and ")}`);
