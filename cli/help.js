@@ -3,13 +3,17 @@
 import { catalogue, dashed } from "./options.js";
 
 /** @typedef {import("./options.js").Core} Core */
+/** @typedef {import("./index.js").PresetEntry} PresetEntry */
 
 const WIDTH = 96;
 
 /** @param {Core} core */
 export function help(core) {
+  /** @type {import("./index.js").Limits} */
   const { minSide, maxSide, maxCurves } = JSON.parse(core.limits());
+  /** @type {import("./index.js").SceneEntry[]} */
   const scenes = JSON.parse(core.sceneCatalogue());
+  const all = presets(core);
   return `Which parts of a film move, how, and how deep they are, from two of its frames.
 
 Usage:
@@ -36,44 +40,78 @@ ${table([
 
 The solver:
 ${table([
-  ["--preset NAME", `what the other settings start from: ${presets(core)}`],
+  ["--preset NAME", `what the other settings start from: ${all.map(named).join(" | ")}`],
   ["--iterations N", "the same as --max-passes N"],
-  ...catalogue(core).map(describe),
 ])}
+${settings(core, all)}
 
 Results: labels.png (0 background, k the k-th curve), depth.pfm, flow.flo, motion.json,
 occlusion.png, and pictures. A scene has the first five for its truth, frame0.png, frame1.png and
 scene.json, in a folder of its name unless --out says otherwise. score prints JSON with --json.
 
 Sequences:
-${table(scenes.map((/** @type {Record<string, string>} */ s) => [s["name"], s["title"]]))}
+${table(scenes.map(({ name, title }) => [name, title]))}
 
 Exit code: 0 done, 1 what was given cannot be worked on, 2 the command line is wrong.`;
 }
 
-/** @param {Core} core */
-function presets(core) {
-  const all = JSON.parse(core.presetCatalogue());
-  const names = all.map(
-    (/** @type {Record<string, string>} */ { value, label }, /** @type {number} */ i) =>
-      `${value} (${label}${i === 0 ? "; the default" : ""})`,
-  );
-  return names.join(" | ");
+/**
+ * @param {Core} core
+ * @returns {PresetEntry[]}
+ */
+const presets = (core) => JSON.parse(core.presetCatalogue());
+
+/**
+ * @param {PresetEntry} preset
+ * @param {number} i
+ */
+const named = ({ value, label }, i) => `${value} (${label}${i === 0 ? "; the default" : ""})`;
+
+/**
+ * The solver's settings, those of all presets first, then those of one.
+ * @param {Core} core
+ * @param {PresetEntry[]} all
+ */
+function settings(core, all) {
+  const names = all.map(({ value }) => value);
+  const groups = [names, ...names.map((name) => [name])];
+  return groups
+    .map((group) => {
+      const own = catalogue(core).filter(({ presets }) => String(presets) === String(group));
+      const rows = own.map((option) => describe(option, group));
+      return own.length ? `\nWith --preset ${group.join(" or ")}:\n${table(rows)}` : "";
+    })
+    .filter((text) => text)
+    .join("\n");
 }
 
-/** @param {import("./options.js").Descriptor} descriptor */
-function describe({ key, meaning, unit, kind, min, max, automatic, choices, defaults }) {
-  const range =
-    kind === "choice"
-      ? (choices ?? []).map(({ value }) => value).join(" | ")
-      : kind === "toggle"
-        ? "on | off"
-        : `${min} to ${max}${unit && ` ${unit}`}${automatic ? " | auto" : ""}`;
-  const usual = Object.entries(defaults ?? {}).map(
-    ([preset, value]) => `${preset}: ${word(value)}`,
+/**
+ * @param {import("./options.js").OptionEntry} option
+ * @param {PresetEntry["value"][]} presets that it has an effect under
+ */
+function describe(option, presets) {
+  const { key, meaning, unit, defaults } = option;
+  const usual = presets.map((preset) =>
+    presets.length > 1 ? `${preset}: ${word(defaults[preset])}` : word(defaults[preset]),
   );
-  const notes = [range, ...usual].join("; ");
-  return [`--${dashed(key)} …`, `${meaning} (${notes})`];
+  return [`--${dashed(key)} …`, `${meaning} (${[range(option, unit), ...usual].join("; ")})`];
+}
+
+/**
+ * @param {import("./options.js").OptionEntry} option
+ * @param {string} unit
+ */
+function range(option, unit) {
+  switch (option.kind) {
+    case "choice":
+      return option.choices.map(({ value }) => value).join(" | ");
+    case "toggle":
+      return "on | off";
+    default: {
+      const automatic = option.kind === "number" && option.automatic;
+      return `${option.min} to ${option.max}${unit && ` ${unit}`}${automatic ? " | auto" : ""}`;
+    }
+  }
 }
 
 /** @param {unknown} value */

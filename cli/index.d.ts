@@ -6,14 +6,18 @@
  * import { readFileSync } from "node:fs";
  * import { Frame, Solver } from "relievo";
  *
- * const [first, second] = ["a.png", "b.png"].map((name) => Frame.decode(readFileSync(name), name));
+ * const read = (name) => Frame.decode(readFileSync(name), name);
+ * const [first, second, third] = ["a.png", "b.png", "c.png"].map(read);
  * const solver = new Solver(first, second, { focal: 320 }, [], {});
  * while (solver.step() === "running");
  * console.log(JSON.parse(solver.report()).regions);
+ * solver.next(third); // the following frame of the film, from what was found
+ * while (solver.step() === "running");
  * ```
  *
  * The last argument holds what differs from the preset `best`, the default: `{ lambda: 200 }`, or
  * `{ preset: "paper" }` for the method as printed. `optionCatalogue()` lists all there is to set. What
- * goes in may be JSON text as well; what comes out (`report()`, `findCurves()`, …) is.
+ * goes in may be JSON text as well; what comes out (`report()`, `findCurves()`, …) is, and has the types `Report`,
+ * `Shape[]`, … below.
  */
 export * from "../pkg/relievo.js";

@@ -3,13 +3,11 @@
 import { UsageError } from "./errors.js";
 
 /** @typedef {typeof import("./index.js")} Core */
-/** @typedef {{ key: string, label: string, meaning: string, term: string, unit: string, kind: string,
- *   min?: number, max?: number, automatic?: boolean, choices?: { value: string, label: string }[],
- *   defaults?: Record<string, unknown> }} Descriptor */
+/** @typedef {import("./index.js").OptionEntry} OptionEntry */
 
 /**
  * @param {Core} core
- * @returns {Descriptor[]}
+ * @returns {OptionEntry[]}
  */
 export const catalogue = (core) => JSON.parse(core.optionCatalogue());
 
@@ -35,27 +33,26 @@ export function known(core) {
 export function given(core, values) {
   /** @type {Record<string, unknown>} */
   const options = {};
-  for (const { key, kind, automatic } of catalogue(core)) {
-    const text = values[dashed(key)];
-    if (text !== undefined) options[key] = read(dashed(key), text, kind, automatic ?? false);
+  for (const option of catalogue(core)) {
+    const text = values[dashed(option.key)];
+    if (text !== undefined) options[option.key] = read(option, text);
   }
   return options;
 }
 
 /**
- * @param {string} name
+ * @param {OptionEntry} option
  * @param {string} text
- * @param {string} kind
- * @param {boolean} automatic
  */
-function read(name, text, kind, automatic) {
+function read(option, text) {
+  const { key, kind } = option;
   if (kind === "toggle") {
     if (["true", "on", "yes"].includes(text)) return true;
     if (["false", "off", "no"].includes(text)) return false;
-    throw new UsageError(`--${name} ${text} is neither on nor off`);
+    throw new UsageError(`--${dashed(key)} ${text} is neither on nor off`);
   }
   if (kind === "number" || kind === "integer") {
-    if (automatic && text === "auto") return null;
+    if (kind === "number" && option.automatic && text === "auto") return null;
     // JSON has no NaN or infinity: left as words, they are refused.
     if (text.trim() !== "" && Number.isFinite(Number(text))) return Number(text);
   }

@@ -149,7 +149,8 @@ function shapesOf(words, { circle = [], polygon = [], auto }) {
  * @param {Record<string, unknown>} options
  */
 function mostPasses(core, options) {
-  const { defaults = {} } = catalogue(core).find(({ key }) => key === "max_passes") ?? {};
+  /** @type {Record<string, unknown>} */
+  const defaults = catalogue(core).find(({ key }) => key === "max_passes")?.defaults ?? {};
   const preset = options["preset"] ?? JSON.parse(core.presetCatalogue())[0].value;
   return Number(options["max_passes"] ?? defaults[String(preset)]);
 }
@@ -176,16 +177,16 @@ function announce(found) {
   for (const { points } of found) console.log(`  --polygon ${points.flat().join(",")}`);
 }
 
-/** @param {any} report */
-function summarise({ status, iterations, regions, warnings, seconds }) {
+/** @param {import("../pkg/relievo.js").Report} report */
+function summarise({ status, iterations, regions, warnings, seconds, expected }) {
   const vector = (/** @type {number[]} */ v) => v.map((x) => x.toPrecision(3)).join(", ");
   const end = status === "exhausted" ? "out of iterations" : status;
   console.log(`${end} after ${iterations} passes, ${seconds.total.toFixed(1)} s`);
   const nameOf = (/** @type {number} */ label) => (label === 0 ? "background" : `curve ${label}`);
-  for (const { label, share, kind, translation, rotation } of regions) {
+  for (const { label, share, model, translation, rotation } of regions) {
     const name = nameOf(label);
     console.log(
-      `${name.padEnd(11)} ${(100 * share).toFixed(1).padStart(5)} %  ${kind.padEnd(11)}  ` +
+      `${name.padEnd(11)} ${(100 * share).toFixed(1).padStart(5)} %  ${model.padEnd(11)}  ` +
         `T (${vector(translation)})  ω (${vector(rotation)}) rad`,
     );
   }
@@ -195,4 +196,11 @@ function summarise({ status, iterations, regions, warnings, seconds }) {
     }
   }
   for (const warning of warnings) console.log(`note: ${warning}`);
+  if (expected) {
+    const labels =
+      expected.labels > 0 ? `, labels but for ${(100 * expected.labels).toFixed(1)} %` : "";
+    console.log(
+      `flow is expected to be right to about ${expected.flow.toPrecision(1)} px${labels}`,
+    );
+  }
 }

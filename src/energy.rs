@@ -10,6 +10,7 @@ use serde::Serialize;
 
 /// The three terms of (7).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Energy {
     /// Σ ∫ ψ².
     pub data: f64,

@@ -6,6 +6,7 @@ use crate::camera::{Camera, RigidMotion};
 
 /// The motion model of a region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum MotionModel {
     /// T = 0 and ω = 0.

@@ -16,6 +16,7 @@ use crate::interpretation::{Flow, Interpretation};
 /// Distances between an interpretation and the truth. Lists have an entry for each region of the
 /// truth, the background first; an entry is null where there is nothing to compare.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Scores {
     /// Mean end-point error of the flow in pixels; null when no true flow is known.
     pub aee: Option<f64>,

@@ -8,6 +8,7 @@
 import { during } from "./busy";
 import { announce } from "./dom";
 import { adopt, sameFrames } from "./opened";
+import { paceOf } from "./pace";
 import { store, type State } from "./store";
 import { wantedBy } from "./views";
 import { ending, sentence } from "./wording";
@@ -102,8 +103,17 @@ async function command(
 export async function run(): Promise<void> {
   if (store.state.running) return;
   const patch = { running: true, started: true, selected: null };
-  const done = await command(patch, (service, setup, wanted) => service.run(setup, wanted));
+  const done = await command(patch, (service, setup, wanted) =>
+    service.run(setup, wanted, paceOf(store.state)),
+  );
   if (done) announce("Running.");
+}
+
+/** Tells the worker of another pace; a run that begins takes its own along. */
+export async function keepPace(): Promise<void> {
+  if (!store.state.running) return;
+  const pace = paceOf(store.state);
+  await attempt(null, () => client.call((service) => service.pace(pace)));
 }
 
 /** The worker finishes the step it is in; the progress after it says that it has stopped. */

@@ -69,6 +69,9 @@ export interface State {
   focalFinding: string | null;
   options: OptionValues;
 
+  /** Least time of a pass in milliseconds, where it was chosen (`pace.ts`). */
+  pace: number | null;
+
   /** What the page is waiting for, as a phrase (`busy.ts`); `null` when it waits for nothing. */
   busy: string | null;
   running: boolean;
@@ -142,6 +145,7 @@ export const store = new Store({
   camera: { focal: 320 },
   focalFinding: null,
   options: {},
+  pace: null,
   busy: "Loading",
   running: false,
   started: false,

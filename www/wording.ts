@@ -1,6 +1,7 @@
 /** What the page says in whole sentences. */
 
-import type { FocalLength, Report } from "./worker/protocol";
+import { number, percent } from "./format";
+import type { Expected, FocalLength, Report } from "./worker/protocol";
 
 /**
  * The core's sentences begin small and end bare, so that they fit into others. One that begins with
@@ -24,6 +25,12 @@ export function ending(report: Report): string {
     case "running":
       return `Paused ${after}.`;
   }
+}
+
+/** How good the result is expected to be, at the scale at work. */
+export function expectation({ flow, labels }: Expected): string {
+  const right = `Flow is expected to be right to about ${number(flow, 1)}\u00a0px`;
+  return labels > 0 ? `${right}, labels but for about ${percent(labels)}.` : `${right}.`;
 }
 
 /** What a look for the focal length came to. */

@@ -9,6 +9,7 @@ use crate::error::Error;
 
 /// What kind of control an option wants.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Control {
     /// A real number.
@@ -40,6 +41,7 @@ pub enum Control {
 
 /// One of the words an option can be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Choice {
     /// The word.
     pub value: &'static str,
@@ -49,8 +51,13 @@ pub struct Choice {
 
 /// One option, described.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Descriptor {
     /// Its key in JSON; on the command line `--` and the key with dashes.
+    #[cfg_attr(
+        target_arch = "wasm32",
+        tsify(type = "Exclude<keyof Options, \"preset\">")
+    )]
     pub key: &'static str,
     /// Short name.
     pub label: &'static str,
@@ -64,6 +71,8 @@ pub struct Descriptor {
     pub presets: &'static [Preset],
     /// Its kind and range.
     #[serde(flatten)]
+    // A union cannot be extended by an interface; named so, it becomes an intersection.
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "Control"))]
     pub control: Control,
 }
 

@@ -22,6 +22,7 @@ pub const MAX_CURVES: usize = 7;
 
 /// A configuration to start from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Preset {
     /// Coarse to fine, a field of inverse depth per region, depth eliminated from the motion step.
@@ -46,6 +47,7 @@ impl Preset {
 
 /// The function g that smooths depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum Diffusion {
     /// (11) g(r) = 2√(1+r²) − 2: keeps depth edges.
@@ -56,6 +58,7 @@ pub enum Diffusion {
 
 /// All settings of a solver.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Options {
     /// Which solver, and what the other settings started from.
     pub preset: Preset,

@@ -59,6 +59,11 @@ pub struct Sequence {
 
 /// A sequence that can be rendered.
 #[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(
+    target_arch = "wasm32",
+    derive(tsify::Tsify),
+    tsify(rename = "SceneEntry")
+)]
 pub struct Entry {
     /// What [`render`] calls it.
     pub name: &'static str,

@@ -11,6 +11,7 @@ use crate::options::Options;
 
 /// Where the solver stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// There is more to do.

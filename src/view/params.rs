@@ -15,6 +15,7 @@ pub struct Choice {
 
 /// Settings of all views; each reads those it needs. Missing ones take their defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct ViewParams {
     /// Factor on each region's depth, the background first; 1 where missing.

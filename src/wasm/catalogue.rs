@@ -1,69 +1,121 @@
 //! What the core offers, as JSON, so that no one else keeps a list.
 
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
+use tsify::Tsify;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::write;
 use crate::frames::{MAX_SIDE, MIN_SIDE};
-use crate::options::{self, MAX_CURVES, Options, Preset};
+use crate::options::{self, Descriptor, MAX_CURVES, Options, Preset};
 use crate::scene;
-use crate::view::{self, GLASSES, LABEL_COLOURS, PALETTES, ViewParams};
+use crate::view::{self, Choice, GLASSES, LABEL_COLOURS, PALETTES, View, ViewParams};
 
-/// Every option, described: an array in the order in which a form should show them. Each carries its
-/// `defaults`, by preset.
+/// An option with its default under each preset.
+#[derive(Serialize, Tsify)]
+struct OptionEntry {
+    #[serde(flatten)]
+    #[tsify(type = "Descriptor")]
+    descriptor: &'static Descriptor,
+    /// Its value, by preset.
+    #[tsify(type = "Record<Preset, string | number | boolean | null>")]
+    defaults: Map<String, Value>,
+}
+
+/// A configuration to start from.
+#[derive(Serialize, Tsify)]
+struct PresetEntry {
+    /// What the program calls it.
+    value: Preset,
+    /// What people call it.
+    label: &'static str,
+}
+
+/// All about views.
+#[derive(Serialize, Tsify)]
+struct ViewCatalogue {
+    /// What can be drawn.
+    views: &'static [View],
+    /// Colours of depth.
+    palettes: &'static [Choice],
+    /// Glasses of the anaglyph.
+    glasses: &'static [Choice],
+    /// `#rrggbb` of label 0, of label 1, …
+    colours: Vec<String>,
+    /// The parameters that views take.
+    #[tsify(type = "Required<ViewParams>")]
+    defaults: ViewParams,
+}
+
+/// What a frame and the curves on it may be at most.
+#[derive(Serialize, Tsify)]
+#[serde(rename_all = "camelCase")]
+struct Limits {
+    /// Shortest side of a frame, pixels.
+    min_side: usize,
+    /// Longest side of a frame, pixels.
+    max_side: usize,
+    /// Curves on a frame.
+    max_curves: usize,
+}
+
+/// Every option, described, in the order in which a form should show them: `OptionEntry[]`.
 #[wasm_bindgen(js_name = optionCatalogue)]
 pub fn option_catalogue() -> String {
     let presets: Vec<(String, Value)> = Preset::ALL
         .iter()
         .map(|&preset| (word(preset), value(&Options::preset(preset))))
         .collect();
-    let described = options::catalogue().iter().map(|descriptor| {
-        let mut described = value(descriptor);
-        let defaults: Map<String, Value> = presets
-            .iter()
-            .map(|(preset, all)| (preset.clone(), all[descriptor.key].clone()))
-            .collect();
-        described["defaults"] = Value::Object(defaults);
-        described
+    let defaults = |key: &str| {
+        let all = presets.iter();
+        all.map(|(preset, values)| (preset.clone(), values[key].clone()))
+            .collect()
+    };
+    let described = options::catalogue().iter().map(|descriptor| OptionEntry {
+        descriptor,
+        defaults: defaults(descriptor.key),
     });
     write(&described.collect::<Vec<_>>())
 }
 
-/// Every preset, the default first: an array of `{"value", "label"}`.
+/// Every preset, the default first: `PresetEntry[]`.
 #[wasm_bindgen(js_name = presetCatalogue)]
 pub fn preset_catalogue() -> String {
-    let presets = Preset::ALL
-        .iter()
-        .map(|&preset| json!({ "value": preset, "label": preset.label() }));
+    let presets = Preset::ALL.iter().map(|&value| PresetEntry {
+        value,
+        label: value.label(),
+    });
     write(&presets.collect::<Vec<_>>())
 }
 
-/// Every built-in sequence: an array of `{"name", "title", "lesson"}`.
+/// Every built-in sequence: `SceneEntry[]`.
 #[wasm_bindgen(js_name = sceneCatalogue)]
 pub fn scene_catalogue() -> String {
     write(scene::catalogue())
 }
 
-/// All about views: `{"views": [{"kind", "title", "meaning"}], "palettes": [{"value", "label"}],
-/// "glasses": [{"value", "label"}], "colours": ["#rrggbb" of label 0, of label 1, …], "defaults": {…}}`,
-/// the last being the parameters that views take and their defaults.
+/// All about views: `ViewCatalogue`.
 #[wasm_bindgen(js_name = viewCatalogue)]
 pub fn view_catalogue() -> String {
-    let colours = LABEL_COLOURS.map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"));
-    write(&json!({
-        "views": view::catalogue(),
-        "palettes": PALETTES,
-        "glasses": GLASSES,
-        "colours": colours,
-        "defaults": ViewParams::default(),
-    }))
+    write(&ViewCatalogue {
+        views: view::catalogue(),
+        palettes: &PALETTES,
+        glasses: &GLASSES,
+        colours: LABEL_COLOURS
+            .map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"))
+            .into(),
+        defaults: ViewParams::default(),
+    })
 }
 
-/// `{"minSide", "maxSide"}` of a frame in pixels and `{"maxCurves"}`.
+/// What a frame and the curves on it may be at most: `Limits`.
 #[wasm_bindgen]
 pub fn limits() -> String {
-    write(&json!({ "minSide": MIN_SIDE, "maxSide": MAX_SIDE, "maxCurves": MAX_CURVES }))
+    write(&Limits {
+        min_side: MIN_SIDE,
+        max_side: MAX_SIDE,
+        max_curves: MAX_CURVES,
+    })
 }
 
 fn word(preset: Preset) -> String {

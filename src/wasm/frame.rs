@@ -1,7 +1,9 @@
 //! Frames in, pictures out.
 
-use wasm_bindgen::Clamped;
+use js_sys::Uint8ClampedArray;
 use wasm_bindgen::prelude::wasm_bindgen;
+use wasm_bindgen::{Clamped, JsValue};
+use web_sys::ImageData;
 
 use super::Word;
 use crate::error::Error;
@@ -42,7 +44,13 @@ impl Frame {
 
     /// Four bytes a pixel in row order, opaque.
     pub fn rgba(&self) -> Clamped<Vec<u8>> {
-        opaque(&self.0.rgb)
+        Clamped(opaque(&self.0.rgb).data().as_flattened().to_vec())
+    }
+
+    /// The same for a canvas; browsers only.
+    #[wasm_bindgen(js_name = imageData)]
+    pub fn image_data(&self) -> Result<ImageData, JsValue> {
+        image_data(&opaque(&self.0.rgb))
     }
 }
 
@@ -68,9 +76,21 @@ impl Picture {
     pub fn rgba(&self) -> Clamped<Vec<u8>> {
         Clamped(self.0.data().as_flattened().to_vec())
     }
+
+    /// The same for a canvas; browsers only.
+    #[wasm_bindgen(js_name = imageData)]
+    pub fn image_data(&self) -> Result<ImageData, JsValue> {
+        image_data(&self.0)
+    }
 }
 
-fn opaque(rgb: &Grid<[u8; 3]>) -> Clamped<Vec<u8>> {
-    let opaque = rgb.map(|[r, g, b]| [r, g, b, 255]);
-    Clamped(opaque.data().as_flattened().to_vec())
+fn opaque(rgb: &Grid<[u8; 3]>) -> view::Picture {
+    rgb.map(|[r, g, b]| [r, g, b, 255])
+}
+
+/// Copied out of the core's memory, which may grow and so move while the browser draws.
+fn image_data(picture: &view::Picture) -> Result<ImageData, JsValue> {
+    let (width, height) = (picture.width() as u32, picture.height() as u32);
+    let bytes = Uint8ClampedArray::from(picture.data().as_flattened());
+    ImageData::new_with_js_u8_clamped_array_and_sh(&bytes, width, height)
 }

@@ -2,10 +2,12 @@
 
 use std::cell::OnceCell;
 
-use js_sys::{Array, Float32Array, Uint8Array};
+use js_sys::{Array, Float32Array, Reflect, Uint8Array};
 use serde::{Deserialize, Serialize};
-use serde_json::json;
+use tsify::Tsify;
+use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::wasm_bindgen;
+use web_sys::Performance;
 
 use super::files::listed;
 use super::{Frame, Json, Mesh, Picture, Scene, Word, draw, write};
@@ -17,7 +19,7 @@ use crate::file::{png, result};
 use crate::frames::FramePair;
 use crate::interpretation::Interpretation;
 use crate::options::Options;
-use crate::score;
+use crate::score::{self, Scores};
 use crate::solver::Report;
 use crate::view::{self, ViewParams};
 
@@ -31,29 +33,59 @@ const PICTURES: [(&str, &str); 6] = [
     ("confidence", "confidence.png"),
 ];
 
-#[wasm_bindgen]
-extern "C" {
-    /// Milliseconds since some moment; workers and Node have it.
-    #[wasm_bindgen(js_namespace = performance, js_name = now)]
-    fn milliseconds() -> f64;
+/// Seconds since some moment, 0 where there is no clock. Windows, workers and Node all have one, under this name.
+fn now() -> f64 {
+    thread_local! {
+        static CLOCK: Option<Performance> = Reflect::get(&js_sys::global(), &"performance".into())
+            .ok()
+            .filter(|clock| clock.is_object())
+            .map(JsCast::unchecked_into);
+    }
+    CLOCK.with(|clock| clock.as_ref().map_or(0.0, |clock| clock.now() / 1000.0))
 }
 
-/// A camera as JavaScript writes it: without a principal point it looks at the centre.
-#[derive(Deserialize)]
+/// A camera.
+#[derive(Deserialize, Tsify)]
+#[tsify(rename = "Camera")]
 #[serde(deny_unknown_fields)]
 struct CameraJson {
+    /// Focal length, pixels.
     focal: f64,
+    /// Column of the principal point; without it that of the frame's centre.
+    #[tsify(optional)]
     cx: Option<f64>,
+    /// Row of the principal point; without it that of the frame's centre.
+    #[tsify(optional)]
     cy: Option<f64>,
 }
 
-/// A curve as JavaScript reads it.
-#[derive(Serialize)]
+/// A curve as the solver has moved it.
+#[derive(Serialize, Tsify)]
+#[tsify(rename = "Contour")]
 struct Outline<'a> {
+    /// 0 for the background, k for the k-th curve.
     label: u8,
+    /// Whether its end meets its start.
     closed: bool,
-    /// x, y, x, y, …
+    /// x, y, x, y, … in pixels.
+    #[tsify(type = "number[]")]
     points: &'a [f32],
+}
+
+/// How far what is found and the baseline are from the truth.
+#[derive(Serialize, Tsify)]
+struct ScoreTable {
+    found: Scores,
+    baseline: FlowScores,
+}
+
+/// How far a flow is from the true one; null where no true flow is known.
+#[derive(Serialize, Tsify)]
+struct FlowScores {
+    /// Mean end-point error, pixels.
+    aee: Option<f64>,
+    /// Mean angular error, degrees.
+    aae: Option<f64>,
 }
 
 impl<'a> Outline<'a> {
@@ -93,7 +125,7 @@ impl Solver {
         let shapes: Vec<Shape> = shapes.read("curves")?;
         let options = Options::from_json(&options.text("options")?)?;
         let mut solver = crate::Solver::new(pair, camera, &shapes, options)?;
-        solver.set_clock(|| milliseconds() / 1000.0);
+        solver.set_clock(now);
         Ok(Self {
             solver,
             found: OnceCell::new(),
@@ -101,6 +133,7 @@ impl Solver {
     }
 
     /// One pass, motion → depth → curves: `running`, `converged`, `exhausted` or `diverged`.
+    #[wasm_bindgen(unchecked_return_type = "Status")]
     pub fn step(&mut self) -> String {
         self.change().step();
         self.status()
@@ -129,8 +162,15 @@ impl Solver {
         self.change().reset();
     }
 
+    /// Takes the following frame of the film: the second becomes the first, and what was found is the first guess for
+    /// the new pair. Curves keep their numbers, and a solver that had stopped goes on. `frame` stays as it is; on an
+    /// error the solver does, too.
+    pub fn next(&mut self, frame: &Frame) -> Result<(), Error> {
+        self.change().next(frame.0.clone())
+    }
+
     /// Where it stands: `running`, `converged`, `exhausted` or `diverged`.
-    #[wasm_bindgen(getter)]
+    #[wasm_bindgen(getter, unchecked_return_type = "Status")]
     pub fn status(&self) -> String {
         write(&self.solver.status()).trim_matches('"').to_owned()
     }
@@ -149,12 +189,12 @@ impl Solver {
         self.change().set_curves(&shapes)
     }
 
-    /// Status, energy, regions, weights, warnings and times, as JSON.
+    /// Status, energy, regions, weights, warnings and times: a `Report` as JSON.
     pub fn report(&self) -> String {
         write(&self.solver.report())
     }
 
-    /// The curves as `[{"label", "closed", "points": [x, y, x, y, …]}]`, as JSON.
+    /// The curves: `Contour[]` as JSON.
     pub fn contours(&self) -> String {
         let contours = self.solver.contours();
         write(&contours.iter().map(Outline::of).collect::<Vec<_>>())
@@ -176,16 +216,16 @@ impl Solver {
         )))
     }
 
-    /// How far this is from the truth of `scene`, and Horn–Schunck from its image motion:
-    /// `{"found", "baseline"}`, as JSON.
+    /// How far this is from the truth of `scene`, and Horn–Schunck from its image motion: a `ScoreTable` as JSON.
     pub fn scores(&self, scene: &Scene) -> Result<String, Error> {
         let truth = &scene.sequence().truth;
         let found = score::compare(self.found(), truth)?;
         let baseline = score::compare_flow(&scene.baseline()?.flow, &truth.flow, None)?;
         let (aee, aae) = baseline.unzip();
-        Ok(write(
-            &json!({ "found": found, "baseline": { "aee": aee, "aae": aae } }),
-        ))
+        Ok(write(&ScoreTable {
+            found,
+            baseline: FlowScores { aee, aae },
+        }))
     }
 
     /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`].

@@ -19,6 +19,18 @@ import {
 const [WIDTH, HEIGHT] = [80, 60];
 const scene = new Scene("squares", WIDTH, HEIGHT);
 
+/** @param {Solver} solver */
+function solved(solver) {
+  while (solver.step() === "running");
+  return solver;
+}
+
+/**
+ * @param {Solver} solver
+ * @returns {import("../../cli/index.js").Report}
+ */
+const reported = (solver) => JSON.parse(solver.report());
+
 const solver = (options = "{}", shapes = scene.shapesJson, camera = scene.cameraJson) =>
   new Solver(scene.first(), scene.second(), camera, shapes, options);
 
@@ -26,9 +38,7 @@ describe("a solver", () => {
   /** @type {Solver} */
   let found;
   beforeEach(() => {
-    found = solver();
-    do found.step();
-    while (JSON.parse(found.report()).flat);
+    found = solved(solver());
   });
 
   test("gives arrays with an entry for each pixel", () => {
@@ -40,21 +50,18 @@ describe("a solver", () => {
       found.flowV(),
     ];
     for (const array of arrays) assert.equal(array.length, WIDTH * HEIGHT);
-    const regions = JSON.parse(found.report()).regions;
-    const counted = regions.map(
-      (/** @type {{ label: number }} */ { label }) =>
-        found.labels().filter((l) => l === label).length,
-    );
+    const { regions } = reported(found);
+    const labels = found.labels();
     assert.deepEqual(
-      regions.map((/** @type {{ pixels: number }} */ region) => region.pixels),
-      counted,
+      regions.map(({ pixels }) => pixels),
+      regions.map(({ label }) => labels.filter((l) => l === label).length),
     );
   });
 
   test("shows what it found after a step, not before it", () => {
-    const before = found.depth();
-    found.stepDepth();
-    assert.notDeepEqual(found.depth(), before);
+    const fresh = solver();
+    const before = fresh.depth();
+    assert.notDeepEqual(solved(fresh).depth(), before);
   });
 
   test("draws every view of the catalogue", () => {
@@ -99,6 +106,28 @@ describe("a solver", () => {
     assert.ok(baseline.aee > 0 && baseline.aae > 0);
   });
 
+  test("says of each region which motion it is, and how good all of it is", () => {
+    const { regions, expected, breaks, history } = reported(found);
+    assert.ok(regions.every(({ model }) => /^(still|rotation|translation|full)$/.test(model)));
+    assert.ok(expected && expected.flow > 0 && expected.flow < 1);
+    assert.ok(breaks.length > 0 && breaks.every((after) => after <= history.length));
+  });
+
+  test("takes the following frame from where it is", () => {
+    const mean = () => found.flowU().reduce((sum, u) => sum + u, 0) / (WIDTH * HEIGHT);
+    const [before, cold] = [mean(), reported(found).iterations];
+    const frame = scene.first();
+    found.next(frame);
+    assert.equal(frame.width, WIDTH, "the frame is still there");
+    assert.equal(found.status, "running");
+    assert.equal(reported(found).breaks.at(-1), cold);
+    solved(found);
+    // The film runs backwards from the second frame to the first.
+    assert.ok(mean() * before < 0 && Math.abs(mean() + before) < 0.5 * Math.abs(before));
+    assert.deepEqual([...new Set(found.labels())].sort(), [0, 1, 2]);
+    assert.ok(reported(found).iterations - cold < cold, "it had a first guess");
+  });
+
   test("starts again on reset", () => {
     found.reset();
     assert.equal(JSON.parse(found.report()).iterations, 0);
@@ -117,6 +146,9 @@ describe("a solver", () => {
     assert.throws(() => found.setCurves('[{"kind": "blob"}]'), {
       message: /curves cannot be read/,
     });
+    assert.throws(() => found.next(scene.second()), { name: "InputError", message: /identical/ });
+    const small = new Scene("squares", 40, 30).first();
+    assert.throws(() => found.next(small), { name: "InputError", message: /40×30/ });
     assert.throws(() => found.view("smell", "{}"), { message: /"smell" is no view/ });
     assert.throws(() => found.view("depth", '{"scales": [-1]}'), { message: /scales is -1/ });
     assert.deepEqual([found.report(), found.labels()], before);
@@ -178,14 +210,16 @@ test("a frame from pixels is the same as from a file", () => {
 
 test("catalogues say enough to build a form from", () => {
   const presets = JSON.parse(presetCatalogue()).map((/** @type {any} */ preset) => preset.value);
-  for (const { key, label, meaning, kind, min, max, choices, defaults } of JSON.parse(
-    optionCatalogue(),
-  )) {
+  /** @type {import("../../cli/index.js").OptionEntry[]} */
+  const options = JSON.parse(optionCatalogue());
+  for (const option of options) {
+    const { key, label, meaning, defaults } = option;
     assert.ok(label && meaning, key);
+    assert.ok(option.presets.length > 0 && option.presets.every((one) => presets.includes(one)));
     assert.deepEqual(Object.keys(defaults).sort(), [...presets].sort(), key);
-    if (kind === "choice") assert.ok(choices.length > 0, key);
-    else if (kind !== "toggle") assert.ok(min < max, key);
-    for (const preset of presets)
+    if (option.kind === "choice") assert.ok(option.choices.length > 0, key);
+    else if (option.kind !== "toggle") assert.ok(option.min < option.max, key);
+    for (const preset of option.presets)
       solver(JSON.stringify({ preset, [key]: defaults[preset] })).free();
   }
   assert.deepEqual(JSON.parse(limits()), { minSide: 16, maxSide: 4096, maxCurves: 7 });

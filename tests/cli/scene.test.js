@@ -105,6 +105,18 @@ describe("asking what there is", () => {
       const wanted = ["--focal", "--circle", "--polygon", "--centre", "--preset", "--max-passes"];
       for (const word of [...wanted, ...names]) assert.ok(stdout.includes(word), word);
       assert.match(stdout, /best \([^|]*the default\) \|\s+paper/);
+      const both = stdout.indexOf("With --preset best or paper:");
+      const best = stdout.indexOf("With --preset best:");
+      const paper = stdout.indexOf("With --preset paper:");
+      const [mu, occlusion, steps] = ["--mu", "--occlusion", "--depth-steps"].map((word) =>
+        stdout.indexOf(`  ${word} `),
+      );
+      const order = [both, mu, best, occlusion, paper, steps];
+      assert.ok(both > 0);
+      assert.deepEqual(
+        order.toSorted((a, b) => Number(a) - Number(b)),
+        order,
+      );
     }
   });
 

@@ -30,7 +30,7 @@ describe("a solve", () => {
     assert.equal(ran.status, 0);
     assert.match(ran.stdout, /after [1-6] passes/);
     assert.match(ran.stdout, /background/);
-    assert.match(ran.stdout, /curve 2/);
+    assert.match(ran.stdout, /^curve 2 .* (still|rotation|translation|full) +T /m);
   });
 
   test("writes data and pictures", () => {
@@ -224,7 +224,11 @@ describe("a wrong command line ends with 2 and a sentence", () => {
     ["a weight below 0", [...pair, ...FOCAL, "--lambda", "-1"], /lambda is -1.*from 0/],
     ["no passes", [...pair, ...FOCAL, "--iterations", "0"], /max_passes is 0/],
     ["half a pass", [...pair, ...FOCAL, "--max-passes", "1.5"], /max_passes is 1\.5/],
-    ["a switch half on", [...pair, ...FOCAL, "--robust", "maybe"], /--robust maybe is neither on/],
+    [
+      "a switch half on",
+      [...pair, ...FOCAL, "--occlusion", "maybe"],
+      /--occlusion maybe is neither on/,
+    ],
     [
       "a focal length beyond all",
       [...pair, "--focal", "1e300"],

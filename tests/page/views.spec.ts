@@ -4,12 +4,12 @@ import { readFile } from "node:fs/promises";
 
 import type { Page } from "@playwright/test";
 
-import { chooseView, DEEP, drawn, expect, look, read, runPasses, test, until } from "./helpers";
+import { chooseView, drawn, expect, look, read, solve, test, until } from "./helpers";
 
 const FLAT = ["Depth", "Motion", "Anaglyph", "Labels", "Confidence", "Occlusion", "Compare"];
 
 test("each view shows something, and something else than the others", async ({ opened: page }) => {
-  await runPasses(page, DEEP);
+  await solve(page);
   const prints = new Map<number, string>();
   for (const name of ["Curves", ...FLAT]) {
     await chooseView(page, name);
@@ -23,7 +23,7 @@ test("each view shows something, and something else than the others", async ({ o
 });
 
 test("a view's own choices change its picture", async ({ opened: page }) => {
-  await runPasses(page, DEEP);
+  await solve(page);
   const changes: [string, string][] = [
     ["Depth", "#setting-palette"],
     ["Motion", "#setting-motion"],
@@ -42,7 +42,7 @@ test("a view's own choices change its picture", async ({ opened: page }) => {
 });
 
 test("parallax and convergence change the anaglyph", async ({ opened: page }) => {
-  await runPasses(page, DEEP);
+  await solve(page);
   await chooseView(page, "Anaglyph");
   await until(page, (state) => state.pictures.length > 0 && state.pictures.every(Boolean));
   for (const name of ["Parallax", "Convergence"]) {
@@ -56,7 +56,7 @@ test("parallax and convergence change the anaglyph", async ({ opened: page }) =>
 });
 
 test("the truth, the found and Horn–Schunck stand side by side", async ({ opened: page }) => {
-  await runPasses(page, 2);
+  await solve(page);
   await chooseView(page, "Compare");
   await expect(page.locator("#captions span")).toHaveText(["Truth", "Found", "Horn–Schunck"]);
 });
@@ -88,7 +88,7 @@ test("no picture stands under another's name, nor is taken away under it", async
 });
 
 test("the depth slider of a region changes depth, not its outline", async ({ opened: page }) => {
-  await runPasses(page, DEEP);
+  await solve(page);
   await chooseView(page, "Labels");
   await until(page, (state) => state.pictures.every(Boolean) && state.pictures.length === 1);
   const labels = await look(page);
@@ -107,7 +107,7 @@ test("the depth slider of a region changes depth, not its outline", async ({ ope
 test("depth factors start anew with another number of regions, as their sliders do", async ({
   opened: page,
 }) => {
-  await runPasses(page, DEEP);
+  await solve(page);
   await page.locator("#scale-0").fill("2");
   expect(await read(page, (state) => state.scales)).toEqual([4, 1, 1]);
   await page.getByRole("button", { name: "Delete curve 1" }).click();
@@ -118,7 +118,7 @@ test("depth factors start anew with another number of regions, as their sliders 
 test("the relief stands, turns by keyboard and mouse, and takes plaster", async ({
   opened: page,
 }) => {
-  await runPasses(page, DEEP);
+  await solve(page);
   await chooseView(page, "Relief");
   const canvas = page.locator("#relief canvas");
   await expect(canvas).toBeVisible({ timeout: 60_000 });
@@ -183,7 +183,7 @@ test("pictures compared keep their names when they are taken away", async ({ ope
 });
 
 test("the view and the results can be taken away", async ({ opened: page }) => {
-  await runPasses(page, 2);
+  await solve(page);
   const [picture] = await Promise.all([
     page.waitForEvent("download"),
     page.getByRole("button", { name: "This view as PNG" }).click(),

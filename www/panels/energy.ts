@@ -1,8 +1,7 @@
 /**
  * The functional (7) falling, pass by pass.
  *
- * A finer scale has other pixels, smoothed less, and weights change once curves have settled and once motions
- * are held: energy is another sum from there on, so the line is broken.
+ * Where a finer scale begins or weights are chosen anew, energy is another sum from there on: the line is broken.
  */
 
 import uPlot from "uplot";
@@ -14,9 +13,6 @@ import { sentence } from "../wording";
 import type { Report } from "../worker/protocol";
 
 const HEIGHT = 160;
-/** Room above the plot for the names of scales. */
-const HEADROOM = 18;
-
 let plot: uPlot | null = null;
 
 export function mountEnergy(): void {
@@ -56,7 +52,6 @@ export function rebuild(): void {
     {
       width: place.clientWidth || 300,
       height: HEIGHT,
-      padding: [HEADROOM, null, null, null],
       cursor: { show: false },
       legend: { show: false },
       scales: {
@@ -73,8 +68,8 @@ export function rebuild(): void {
           label: "Energy",
           stroke: themeColour("--cyan"),
           width: 2,
-          // One pass makes no line.
-          points: { show: (_, __, first, last) => first === last, size: 6 },
+          // A pass between two breaks makes no line.
+          points: { show: true, size: 5 },
         },
       ],
       hooks: { draw: [markBreaks] },
@@ -90,37 +85,13 @@ const WHOLE = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 const labels = (_: uPlot, values: (number | null)[]) =>
   values.map((value) => (value === null ? "" : compact(value)));
 
-interface Break {
-  /** Passes that had been made. */
-  after: number;
-  /** What began, beside the line and in a sentence. */
-  name: string;
-  place: string;
-}
-
-/** Where energy became another sum, as far as a pass has been made since. */
-function breaks({ refined, settled, rested, history }: Report): Break[] {
-  const finer = refined.map((after, i) => {
-    const name = `scale ${i + 2}`;
-    return { after, name, place: ` on ${name}` };
-  });
-  const still = settled.map((after) => ({
-    after,
-    name: "settled",
-    place: " once curves had settled",
-  }));
-  const held = rested.map((after) => ({
-    after,
-    name: "at rest",
-    place: " once motions were held",
-  }));
-  const all = [...finer, ...still, ...held].sort((a, b) => a.after - b.after);
-  return all.filter(({ after }) => after < history.length);
-}
+/** Passes after which energy became another sum, as far as a pass has been made since. */
+const breaks = ({ breaks, history }: Report) =>
+  [...new Set(breaks)].filter((after) => after > 0 && after < history.length);
 
 /** Passes and their energy, with nothing in between where it became another sum. */
 function dataOf({ report }: Readonly<State>): uPlot.AlignedData {
-  const broken = new Set(report ? breaks(report).map(({ after }) => after) : []);
+  const broken = new Set(report ? breaks(report) : []);
   const passes: number[] = [];
   const energies: (number | null)[] = [];
   for (const [i, energy] of (report?.history ?? []).entries()) {
@@ -134,35 +105,22 @@ function dataOf({ report }: Readonly<State>): uPlot.AlignedData {
   return [passes, energies];
 }
 
-/**
- * A dashed line where energy became another sum, and above it what began: names of scales end there, others start.
- * Where a scale took few passes there is room for its number alone.
- */
+/** A dashed line where energy became another sum. */
 function markBreaks(chart: uPlot): void {
   const { ctx, bbox } = chart;
   const { report } = store.state;
   const ratio = window.devicePixelRatio || 1;
   ctx.save();
-  ctx.strokeStyle = ctx.fillStyle = themeColour("--ink-soft");
+  ctx.strokeStyle = themeColour("--ink-soft");
   ctx.lineWidth = ratio;
   ctx.setLineDash([3 * ratio, 3 * ratio]);
-  ctx.font = `${11 * ratio}px system-ui, sans-serif`;
-  ctx.textBaseline = "bottom";
-  const gap = 3 * ratio;
-  let taken = 0;
-  for (const { after, name } of report ? breaks(report) : []) {
+  ctx.beginPath();
+  for (const after of report ? breaks(report) : []) {
     const x = Math.round(chart.valToPos(after + 0.5, "x", true));
-    ctx.beginPath();
     ctx.moveTo(x, bbox.top);
     ctx.lineTo(x, bbox.top + bbox.height);
-    ctx.stroke();
-    const before = name.startsWith("scale");
-    const end = before ? x + gap : x - gap + ctx.measureText(name).width;
-    const short = before && end - ctx.measureText(name).width < taken + gap;
-    ctx.textAlign = before ? "right" : "left";
-    ctx.fillText(short ? name.replace("scale ", "") : name, before ? end : x - gap, bbox.top - gap);
-    taken = end;
   }
+  ctx.stroke();
   ctx.restore();
 }
 
@@ -171,17 +129,10 @@ function inWords({ report }: Readonly<State>): string {
   const { data, smoothness, length, total } = report.energy;
   const part = (value: number) => percent(value / (total || 1), 0);
   const left = `Of what is left, ${part(data)} is misfit of the frames, ${part(smoothness)} depth's roughness, ${part(length)} length of curves.`;
-  const begun = breaks(report);
   // What the passes came to, as the line shows it: curves moved since have an energy of their own.
-  const fall = (start: number, end: number, place: string) => {
-    const passes = report.history.slice(start, end).map((energy) => number(energy));
-    const [first = number(total), ...later] = passes;
-    return later.length > 0 ? `from ${first} to ${later.at(-1)}${place}` : `${first}${place}`;
-  };
-  const all = report.history.length;
-  if (begun.length === 0)
-    return `${sentence(fall(0, all, all === 1 ? " after one pass" : ""))} ${left}`;
-  const parts = [{ after: 0, place: " on scale 1" }, ...begun];
-  const falls = parts.map(({ after, place }, i) => fall(after, parts[i + 1]?.after ?? all, place));
-  return `${sentence(falls.join(", "))} ${left} A dashed line is where a finer scale begins, with other pixels, or where curves have settled or motions are held, with other weights: energy can be compared only between two lines.`;
+  const since = breaks(report).at(-1) ?? 0;
+  const [first = number(total), ...later] = report.history.slice(since).map((e) => number(e));
+  const fall = later.length > 0 ? `from ${first} to ${later.at(-1)}` : `${first} after one pass`;
+  if (since === 0) return `${sentence(fall)} ${left}`;
+  return `Since the last dashed line ${fall}. ${left} At a dashed line a finer scale begins, weights are chosen anew or curves were drawn: energy can be compared only between two lines.`;
 }

@@ -9,7 +9,7 @@ import { byId, make } from "../dom";
 import { number } from "../format";
 import { configure } from "../session";
 import { store, type State } from "../store";
-import type { OptionDescriptor } from "../worker/protocol";
+import type { OptionEntry, OptionValues, PresetEntry } from "../worker/protocol";
 import { fromSlider, STEPS, toSlider } from "./slider";
 
 type Value = number | string | boolean | null;
@@ -19,78 +19,94 @@ export function mountOptions(): void {
   store.watch(({ options, report, catalogues }) => [options, report?.weights, catalogues], refresh);
   byId("options-reset").addEventListener("click", () => {
     const { preset } = store.state.options;
-    change(preset === undefined ? {} : { preset });
+    change(preset ? { preset } : {});
   });
 }
 
-function change(options: State["options"]): void {
+function change(options: OptionValues): void {
   store.update({ options });
   void configure();
 }
 
-function set(key: string, value: Value): void {
+function set(key: OptionEntry["key"], value: Value): void {
   change({ ...store.state.options, [key]: value });
 }
 
+/** The preset in force. */
+const presetOf = ({ options, catalogues }: Readonly<State>) =>
+  catalogues?.presets.find(({ value }, i) => (options.preset ? value === options.preset : i === 0));
+
 /** What an option is now: as it was changed, or as the preset has it. */
-function valueOf({ options, catalogues }: Readonly<State>, { key, defaults }: OptionDescriptor) {
-  const changed = options[key];
+function valueOf(state: Readonly<State>, { key, defaults }: OptionEntry): Value {
+  const changed = state.options[key];
   if (changed !== undefined) return changed;
-  const preset = options["preset"] ?? catalogues?.presets[0]?.value ?? "";
-  return defaults?.[String(preset)] ?? null;
+  const preset = presetOf(state);
+  return preset ? defaults[preset.value] : null;
 }
 
-let fields: {
-  descriptor: OptionDescriptor;
-  show: (value: Value, chosen: number | null) => void;
-}[] = [];
+interface Field {
+  descriptor: OptionEntry;
+  /** Shows a value, or what was chosen from the data; `idle`: the option has no effect. */
+  show: (value: Value, chosen: number | null, idle: boolean) => void;
+  /** Why the option has no effect, where it has none. */
+  reason: HTMLElement;
+}
+
+let fields: Field[] = [];
 
 function build({ catalogues }: Readonly<State>): void {
   if (!catalogues) return;
   fields = [];
   const preset = presetField(catalogues.presets);
   const rows = catalogues.options.map((descriptor) => {
-    const { element, show } = field(descriptor);
-    fields.push({ descriptor, show });
+    const { element, show, reason } = field(descriptor);
+    fields.push({ descriptor, show, reason });
     return element;
   });
   const details = make("details", {}, make("summary", {}, "Weights and choices"), ...rows);
   byId("options").replaceChildren(...(preset ? [preset] : []), details);
 }
 
-function presetField(presets: { value: string; label: string }[]): HTMLElement | null {
+function presetField(presets: PresetEntry[]): HTMLElement | null {
   if (presets.length < 2) return null;
   const select = make("select", { id: "option-preset" });
   select.append(
     ...presets.map(({ value, label }) => make("option", { value }, `${value}: ${label}`)),
   );
-  select.addEventListener("change", () => change({ preset: select.value }));
+  select.addEventListener("change", () => change({ preset: presets[select.selectedIndex]!.value }));
   return make("label", { class: "field" }, make("span", {}, "Preset"), select);
 }
 
-function field(descriptor: OptionDescriptor) {
-  const { key, label, meaning, term, unit, kind, automatic } = descriptor;
+function field(descriptor: OptionEntry) {
+  const { key, label, meaning, term, unit } = descriptor;
   const id = `option-${key}`;
   const head = make("div", { class: "option-head" }, make("label", { for: id }, label));
   const help = make("p", { class: "note", id: `${id}-help` }, meaning, " ");
   if (term) help.append(make("span", { class: "term" }, term));
+  const reason = make("strong", { class: "reason" });
+  help.prepend(reason);
   const element = make("div", { class: "option" }, head);
-  let show: (value: Value, chosen: number | null) => void;
+  let show: Field["show"];
 
-  if (kind === "choice") {
+  if (descriptor.kind === "choice") {
     const select = make("select", { id, "aria-describedby": `${id}-help` });
     select.append(
-      ...(descriptor.choices ?? []).map(({ value, label }) => make("option", { value }, label)),
+      ...descriptor.choices.map(({ value, label }) => make("option", { value }, label)),
     );
     select.addEventListener("change", () => set(key, select.value));
-    // A choice of one is a fact, not a question.
-    select.disabled = select.options.length < 2;
-    show = (value) => (select.value = String(value));
+    show = (value, _, idle) => {
+      select.value = String(value);
+      // A choice of one is a fact, not a question.
+      select.disabled = idle || select.options.length < 2;
+    };
     element.append(select);
-  } else if (kind === "toggle") {
+  } else if (descriptor.kind === "toggle") {
     const box = make("input", { type: "checkbox", id, "aria-describedby": `${id}-help` });
     box.addEventListener("change", () => set(key, box.checked));
-    show = (value) => (box.checked = value === true);
+    show = (value, _, idle) => {
+      box.checked = value === true;
+      box.disabled = idle;
+    };
     head.append(box);
   } else {
     const slider = make("input", { type: "range", min: 0, max: STEPS, step: 1 });
@@ -109,6 +125,7 @@ function field(descriptor: OptionDescriptor) {
       if (exact.value.trim() !== "") set(key, Number(exact.value));
     });
     const value = make("div", { class: "value" }, slider, exact);
+    const automatic = descriptor.kind === "number" && descriptor.automatic;
     const auto = make("input", { type: "checkbox", id: `${id}-auto` });
     if (automatic) {
       auto.addEventListener("change", () =>
@@ -117,11 +134,12 @@ function field(descriptor: OptionDescriptor) {
       head.append(make("label", { class: "check" }, auto, "from the data"));
     }
     if (unit) help.append(` · ${unit}`);
-    show = (present, chosen) => {
-      const free = automatic === true && present === null;
+    show = (present, chosen, idle) => {
+      const free = automatic && present === null;
       auto.checked = free;
-      slider.disabled = free;
-      exact.disabled = free;
+      auto.disabled = idle;
+      slider.disabled = free || idle;
+      exact.disabled = free || idle;
       const shown = free ? chosen : Number(present);
       // Not under the fingers of someone who types while it runs.
       if (document.activeElement !== exact) {
@@ -137,18 +155,20 @@ function field(descriptor: OptionDescriptor) {
     element.append(value);
   }
   element.append(help);
-  return { element, show };
+  return { element, show, reason };
 }
 
 function refresh(state: Readonly<State>): void {
-  for (const { descriptor, show } of fields) {
-    const chosen = state.report?.weights[descriptor.key];
-    show(valueOf(state, descriptor), typeof chosen === "number" && chosen > 0 ? chosen : null);
+  const present = presetOf(state);
+  for (const { descriptor, show, reason } of fields) {
+    const weights: Partial<Record<string, number>> = { ...state.report?.weights };
+    const chosen = weights[descriptor.key];
+    const idle = present !== undefined && !descriptor.presets.includes(present.value);
+    show(valueOf(state, descriptor), chosen && chosen > 0 ? chosen : null, idle);
+    reason.textContent = idle ? `No effect under ${present.value}. ` : "";
   }
   const preset = document.getElementById("option-preset") as HTMLSelectElement | null;
-  if (preset && state.options["preset"] !== undefined) {
-    preset.value = String(state.options["preset"]);
-  }
+  if (preset && present) preset.value = present.value;
   const changed = Object.keys(state.options).some((key) => key !== "preset");
   byId("options-reset").hidden = !changed;
 }

@@ -9,14 +9,7 @@ import { count, fixed, number, percent } from "../format";
 import { look } from "../session";
 import { addAtCentre } from "../stage/tools";
 import { store, type State } from "../store";
-import type { Region, Shape } from "../worker/protocol";
-
-const KINDS: Record<string, string> = {
-  still: "still",
-  rotation: "rotation",
-  translation: "translation",
-  full: "full",
-};
+import type { RegionReport, Shape } from "../worker/protocol";
 
 export function mountRegions(): void {
   byId("add-circle").addEventListener("click", () => {
@@ -129,9 +122,7 @@ function refresh({ shapes, selected, report, started, frames }: Readonly<State>)
   }
   byId("regions-note").textContent = !frames ? "" : notes(shapes.length, started);
   const warnings = started ? (report?.warnings ?? []) : [];
-  byId("warnings").replaceChildren(
-    ...warnings.map((text) => make("li", {}, text.charAt(0).toUpperCase() + text.slice(1) + ".")),
-  );
+  byId("warnings").replaceChildren(...warnings.map((text) => make("li", {}, text)));
 }
 
 function notes(curves: number, started: boolean): string {
@@ -149,13 +140,15 @@ const briefly = (shape: Shape) =>
     : `${shape.points.length} corners`;
 
 /** Curves are in front of the background anyway: only other curves are worth a word. */
-function facing({ pixels, share, kind, in_front_of }: Region): string {
-  const facts = `${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)} · ${KINDS[kind] ?? kind}`;
+function facing({ pixels, share, model, ambiguous, in_front_of }: RegionReport): string {
+  const facts: string[] = [`${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)}`, model];
+  if (ambiguous) facts.push("two explanations fit equally");
   const curves = in_front_of.filter((label) => label > 0);
-  return curves.length ? `${facts} · in front of ${curves.join(" and ")}` : facts;
+  if (curves.length > 0) facts.push(`in front of ${curves.join(" and ")}`);
+  return facts.join(" · ");
 }
 
-function fill(table: HTMLElement, region: Region): void {
+function fill(table: HTMLElement, region: RegionReport): void {
   const cells = [...table.querySelectorAll<HTMLElement>("[data-number]")];
   const degrees = region.rotation.map((angle) => (angle * 180) / Math.PI);
   const texts = [

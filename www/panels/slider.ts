@@ -5,30 +5,33 @@
  * through the decades below the greatest.
  */
 
-import type { OptionDescriptor } from "../worker/protocol";
+import type { OptionEntry } from "../worker/protocol";
+
+type Ranged = Extract<OptionEntry, { kind: "number" | "integer" }>;
 
 export const STEPS = 200;
 /** Decades that a logarithmic slider shows when the least value is 0. */
 const DECADES = 8;
 
-function floor({ min, max }: OptionDescriptor): number {
-  return min! > 0 ? min! : max! * 10 ** -DECADES;
+const isLogarithmic = (descriptor: Ranged) =>
+  descriptor.kind === "number" && descriptor.logarithmic;
+
+function floor({ min, max }: Ranged): number {
+  return min > 0 ? min : max * 10 ** -DECADES;
 }
 
-export function toSlider(descriptor: OptionDescriptor, value: number): number {
-  const { min, max, logarithmic } = descriptor;
-  if (min === undefined || max === undefined) return 0;
-  if (!logarithmic) return Math.round(((value - min) / (max - min)) * STEPS);
+export function toSlider(descriptor: Ranged, value: number): number {
+  const { min, max } = descriptor;
+  if (!isLogarithmic(descriptor)) return Math.round(((value - min) / (max - min)) * STEPS);
   const least = floor(descriptor);
   if (value < least) return 0;
   return Math.round(1 + (Math.log(value / least) / Math.log(max / least)) * (STEPS - 1));
 }
 
-export function fromSlider(descriptor: OptionDescriptor, position: number): number {
-  const { min, max, logarithmic, kind } = descriptor;
-  if (min === undefined || max === undefined) return 0;
+export function fromSlider(descriptor: Ranged, position: number): number {
+  const { min, max, kind } = descriptor;
   let value: number;
-  if (!logarithmic) {
+  if (!isLogarithmic(descriptor)) {
     value = min + (position / STEPS) * (max - min);
   } else if (position === 0) {
     value = min;

@@ -1,10 +1,12 @@
 /** Run, pause, step, reset, cancel, and the line that says where the computation stands. */
 
-import { byId, icon } from "../dom";
+import { byId, icon, make } from "../dom";
 import { number, seconds } from "../format";
-import { cancel, pause, reset, run, step } from "../session";
+import { PACES, paceOf } from "../pace";
+import { cancel, keepPace, pause, reset, run, step } from "../session";
 import { store, type State } from "../store";
-import type { Part } from "../worker/protocol";
+import { expectation } from "../wording";
+import type { Part, Status } from "../worker/protocol";
 
 const parts = () => document.querySelectorAll<HTMLButtonElement>("[data-part]");
 
@@ -17,6 +19,17 @@ export function mountTransport(): void {
   for (const button of parts()) {
     button.addEventListener("click", () => void step(button.dataset["part"] as Part));
   }
+
+  const pace = byId<HTMLSelectElement>("pace");
+  pace.append(...PACES.map(({ value, label }) => make("option", { value }, label)));
+  pace.addEventListener("change", () => store.update({ pace: Number(pace.value) }));
+  store.watch(
+    (state) => [paceOf(state)],
+    (state) => {
+      pace.value = String(paceOf(state));
+      void keepPace();
+    },
+  );
 
   store.watch(
     ({ running, busy, frames, started, report }) => [
@@ -48,6 +61,8 @@ export function mountTransport(): void {
     ({ report, running, started, busy }) => [report, running, started, busy],
     (state) => {
       byId("status").textContent = standing(state);
+      const expected = state.started && !state.busy ? state.report?.expected : null;
+      byId("expected").textContent = expected ? expectation(expected) : "";
     },
   );
 }
@@ -57,20 +72,18 @@ export function standing({ report, running, started, busy, frames }: Readonly<St
   if (busy) return `${busy}…`;
   if (!frames) return "";
   if (!report || !started) return "Ready";
-  const { iterations, level, levels, flat, status, energy } = report;
+  const { iterations, level, levels, status, energy } = report;
   const parts = [
     running ? "Running" : ENDED[status],
     iterations === 1 ? "1 pass" : `${iterations} passes`,
   ];
   if (levels > 1) parts.push(`scale ${levels - level}/${levels}`);
-  // Who steps by hand would wonder why depth does not rise.
-  if (flat && !running) parts.push("still flat");
   parts.push(`E ${number(energy.total)}`);
   if (report.seconds.total > 0) parts.push(seconds(report.seconds.total));
-  return parts.map((part) => part?.replaceAll(" ", "\u00a0")).join("\u00a0· ");
+  return parts.map((part) => part.replaceAll(" ", "\u00a0")).join("\u00a0· ");
 }
 
-const ENDED: Record<string, string> = {
+const ENDED: Record<Status, string> = {
   running: "Paused",
   converged: "Converged",
   exhausted: "Out of iterations",

@@ -6,6 +6,7 @@ import init, {
   presetCatalogue,
   sceneCatalogue,
   viewCatalogue,
+  type ViewCatalogue,
 } from "../../pkg/relievo.js";
 import type { Catalogues } from "./protocol";
 
@@ -26,7 +27,7 @@ export async function load(): Promise<void> {
 }
 
 export function catalogues(): Catalogues {
-  const { views, palettes, glasses, colours } = JSON.parse(viewCatalogue());
+  const { views, palettes, glasses, colours } = JSON.parse(viewCatalogue()) as ViewCatalogue;
   return {
     options: JSON.parse(optionCatalogue()),
     presets: JSON.parse(presetCatalogue()),

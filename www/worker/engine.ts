@@ -130,7 +130,7 @@ export class Engine {
     this.started = true;
     switch (part) {
       case "all":
-        return solver.step() as Status;
+        return solver.step();
       case "motion":
         solver.stepMotion();
         break;
@@ -194,7 +194,7 @@ export class Engine {
   scores(): ScoreTable | null {
     const { owned, solver } = this.present();
     if (!owned.scene) return null;
-    return JSON.parse(solver.scores(owned.scene));
+    return JSON.parse(solver.scores(owned.scene)) as ScoreTable;
   }
 
   files(params: Record<string, unknown>): ResultFile[] {
@@ -276,9 +276,8 @@ function free({ first, second, scene, baseline }: Owned): void {
 /** A picture made ready to draw off the main thread, no larger than a screen can use. */
 async function bitmap(picture: Picture | Frame, longest = LONGEST_SIDE): Promise<ImageBitmap> {
   const { width, height } = picture;
-  const data = new ImageData(new Uint8ClampedArray(picture.rgba()), width, height);
   const factor = Math.min(1, longest / Math.max(width, height));
-  return createImageBitmap(data, {
+  return createImageBitmap(picture.imageData(), {
     resizeWidth: Math.max(1, Math.round(width * factor)),
     resizeHeight: Math.max(1, Math.round(height * factor)),
     resizeQuality: "medium",

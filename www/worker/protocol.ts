@@ -1,23 +1,41 @@
 /**
  * What page and worker say to each other, typed once.
  *
- * Coordinates are pixels, (0, 0) the centre of the top-left pixel. The words are the core's own:
- * what crosses here is what the core takes and gives, plus pictures ready to draw.
+ * Coordinates are pixels, (0, 0) the centre of the top-left pixel. The words are the core's own, and so are the
+ * types of what it takes and gives: they are made from its source.
  */
 
-/** A curve as drawn. */
-export type Shape =
-  { kind: "circle"; x: number; y: number; r: number } | { kind: "polygon"; points: Point[] };
+import type {
+  Camera,
+  Choice,
+  Contour,
+  Limits,
+  OptionEntry,
+  Options,
+  PresetEntry,
+  Report,
+  SceneEntry,
+  ScoreTable,
+  Shape,
+  View,
+} from "../../pkg/relievo.js";
+
+export type {
+  Camera,
+  Choice,
+  Contour,
+  Expected,
+  OptionEntry,
+  PresetEntry,
+  RegionReport,
+  Report,
+  Scores,
+  ScoreTable,
+  Shape,
+  Status,
+} from "../../pkg/relievo.js";
 
 export type Point = [number, number];
-
-export interface Camera {
-  /** Focal length in pixels. */
-  focal: number;
-  /** Principal point; absent means the centre of the frame. */
-  cx?: number;
-  cy?: number;
-}
 
 /** A focal length that was found, and the ends of its range, in pixels. */
 export interface FocalLength {
@@ -27,7 +45,7 @@ export interface FocalLength {
 }
 
 /** Only what differs from the preset; `null` means "chosen from the data". */
-export type OptionValues = Record<string, number | string | boolean | null>;
+export type OptionValues = Partial<Options>;
 
 /** Everything a solver is made from, apart from the frames. */
 export interface Setup {
@@ -61,49 +79,7 @@ export interface Opened {
   truth: boolean;
 }
 
-export type Status = "running" | "converged" | "exhausted" | "diverged";
 export type Part = "all" | "motion" | "depth" | "curves";
-
-export interface Region {
-  label: number;
-  pixels: number;
-  share: number;
-  translation: [number, number, number];
-  rotation: [number, number, number];
-  /** Which of still, rotation, translation, full explains the region. */
-  kind: string;
-  /** Labels of the regions that it hides a part of. */
-  in_front_of: number[];
-}
-
-export interface Report {
-  iterations: number;
-  status: Status;
-  level: number;
-  levels: number;
-  /** Depth is not looked for yet. */
-  flat: boolean;
-  energy: { data: number; smoothness: number; length: number; total: number };
-  history: number[];
-  /** Passes that had been made when each finer scale was reached. */
-  refined: number[];
-  /** Passes that had been made each time that curves had settled. */
-  settled: number[];
-  /** Passes that had been made each time that motions had come to rest. */
-  rested: number[];
-  regions: Region[];
-  /** The weights in use, those chosen from the data included. */
-  weights: Record<string, number>;
-  warnings: string[];
-  seconds: { total: number; motion: number; depth: number; curves: number };
-}
-
-export interface Contour {
-  label: number;
-  closed: boolean;
-  /** x, y, x, y, … */
-  points: number[];
-}
 
 /** Whose picture: the solver's, the truth's, or the baseline's. */
 export type Whose = "found" | "truth" | "horn-schunck";
@@ -134,32 +110,6 @@ export interface MeshData {
   indices: Uint32Array<ArrayBuffer>;
 }
 
-/** Distances from the truth; lists have an entry for each true region, `null` where nothing compares. */
-export interface Scores {
-  /** Mean error of the flow, px. */
-  aee: number | null;
-  /** Mean angular error of the flow, degrees. */
-  aae: number | null;
-  labels_wrong: number;
-  iou: (number | null)[];
-  /** Relative, in the region's own scale. */
-  depth_error: (number | null)[];
-  /** What a constant depth would score. */
-  flat_depth_error: (number | null)[];
-  /** Degrees. */
-  translation_angle: (number | null)[];
-  /** Radians per frame. */
-  rotation_error: (number | null)[];
-}
-
-/** The baseline knows the flow only. */
-export type BaselineScores = Pick<Scores, "aee" | "aae">;
-
-export interface ScoreTable {
-  found: Scores;
-  baseline: BaselineScores;
-}
-
 /** What the worker sends; the next is sent only once the page has drawn this one. */
 export interface Progress {
   /** Of the `Wanted` it answers. */
@@ -183,49 +133,18 @@ export interface Failure {
   panic: boolean;
 }
 
-export interface OptionDescriptor {
-  key: string;
-  label: string;
-  meaning: string;
-  /** The term of the functional (7) it scales; may be empty. */
-  term: string;
-  unit: string;
-  kind: "number" | "integer" | "choice" | "toggle";
-  /** Numbers and integers: their range. */
-  min?: number;
-  max?: number;
-  /** `null` stands for "chosen from the data". */
-  automatic?: boolean;
-  logarithmic?: boolean;
-  choices?: Choice[];
-  /** By preset. */
-  defaults: Record<string, number | string | boolean | null>;
-}
-
-/** One of several things to choose from. */
-export interface Choice {
-  value: string;
-  label: string;
-}
-
-export interface SceneDescriptor {
-  name: string;
-  title: string;
-  lesson: string;
-}
-
 /** What the core offers, read once at the start. */
 export interface Catalogues {
-  options: OptionDescriptor[];
-  presets: Choice[];
-  scenes: SceneDescriptor[];
+  options: OptionEntry[];
+  presets: PresetEntry[];
+  scenes: SceneEntry[];
   /** What the core can draw. */
-  views: { kind: string; title: string; meaning: string }[];
+  views: View[];
   /** Colours of depth. */
   palettes: Choice[];
   /** Glasses for the anaglyph. */
   glasses: Choice[];
-  limits: { minSide: number; maxSide: number; maxCurves: number };
+  limits: Limits;
   /** One CSS colour per label. */
   colours: string[];
 }
@@ -252,8 +171,13 @@ export interface Service {
   findFocal(camera: Camera): Promise<FocalLength | null>;
   configure(setup: Setup): Promise<void>;
   look(wanted: Wanted): Promise<void>;
-  /** Runs on, or afresh when it had come to an end. Like `step` and `reset` it takes a `look` along. */
-  run(setup: Setup, wanted: Wanted): Promise<void>;
+  /**
+   * Runs on, or afresh when it had come to an end; a pass takes at least `pace` milliseconds. Like `step` and
+   * `reset` it takes a `look` along.
+   */
+  run(setup: Setup, wanted: Wanted, pace: number): Promise<void>;
+  /** Another least time for a pass, while it runs. */
+  pace(milliseconds: number): Promise<void>;
   pause(): Promise<void>;
   step(setup: Setup, part: Part, wanted: Wanted): Promise<void>;
   /** Back to the drawn curves; without a setup, to those it has. */

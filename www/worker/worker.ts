@@ -18,6 +18,8 @@ const engine = new Engine();
 const ready = load();
 
 let running = false;
+/** Least time of a pass, milliseconds. */
+let pace = 0;
 let looping = false;
 let look = looked({ id: 0, view: "", pictures: [], longest: 1, mesh: null });
 let send: (progress: Progress) => Promise<void> = async () => {};
@@ -30,6 +32,26 @@ const breathe = () =>
     turn.port1.onmessage = () => resolve();
     turn.port2.postMessage(null);
   });
+
+/** Ends the rest between two passes. */
+let wake = () => {};
+
+/** Lets time pass, so that an eye can follow, until it is over or there is something to do. */
+async function rest(milliseconds: number): Promise<void> {
+  if (milliseconds <= 0) return breathe();
+  await new Promise<void>((resolve) => {
+    const timer = setTimeout(resolve, milliseconds);
+    wake = () => {
+      clearTimeout(timer);
+      resolve();
+    };
+  });
+}
+
+function stop(): void {
+  running = false;
+  wake();
+}
 
 /** A broken core is told from bad input by the text its panic left behind. */
 function describe(error: unknown): Failure {
@@ -62,9 +84,10 @@ async function loop(): Promise<void> {
   looping = true;
   try {
     while (running) {
+      const start = performance.now();
       if (engine.step("all") !== "running") running = false;
       publish();
-      await breathe();
+      await rest(running ? start + pace - performance.now() : 0);
     }
   } catch (error) {
     running = false;
@@ -187,7 +210,7 @@ const service: Service = {
   open: (source, keep) =>
     guard(async () => {
       const opened = await engine.open(source, keep);
-      running = false;
+      stop();
       return Comlink.transfer(opened, opened.frames);
     }),
 
@@ -207,27 +230,31 @@ const service: Service = {
       publish();
     }),
 
-  run: (setup, wanted) =>
+  run: (setup, wanted, least) =>
     obey(setup, wanted, () => {
+      pace = least;
       if (engine.report().status !== "running") engine.reset();
       running = true;
       void loop();
     }),
 
-  pause: () =>
+  pace: (milliseconds) =>
     guard(() => {
-      running = false;
+      pace = milliseconds;
+      wake();
     }),
+
+  pause: () => guard(stop),
 
   step: (setup, part, wanted) =>
     obey(setup, wanted, () => {
-      running = false;
+      stop();
       engine.step(part);
     }),
 
   reset: (setup, wanted) =>
     obey(setup, wanted, () => {
-      running = false;
+      stop();
       engine.reset();
     }),
 
