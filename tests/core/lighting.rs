@@ -4,7 +4,6 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::frames::Lighting;
-use relievo::warp::Scale;
 use relievo::{Frame, FramePair, Grid, Options, Solver, scene};
 
 const W: usize = 80;
@@ -75,26 +74,6 @@ fn one_change_then_another_is_a_change() {
     assert_eq!(a.then(Lighting::default()), a);
     assert_eq!(Lighting::default().then(a), a);
     assert_ne!(a.then(b), b.then(a));
-}
-
-#[test]
-fn a_scale_relit_is_that_of_frames_in_that_light() {
-    let camera = relievo::Camera::centred(60.0, W, H).unwrap();
-    let change = light(0.8, 10.0);
-    let second = picture().map(|v| 0.9 * v);
-    let mut relit = Scale::new(camera, picture(), second.clone());
-    relit.relight(change);
-    let other = Scale::new(camera, lit(&picture(), change), second);
-    let same = |a: &Grid<f32>, b: &Grid<f32>| {
-        let mut pairs = a.data().iter().zip(b.data());
-        pairs.all(|(a, b)| (a - b).abs() < 1e-3 * (1.0 + b.abs()))
-    };
-    assert!(same(&relit.first, &other.first));
-    assert!(same(&relit.first_gradient.0, &other.first_gradient.0));
-    assert!(same(&relit.first_gradient.1, &other.first_gradient.1));
-    assert!(same(&relit.bend, &other.bend));
-    assert_eq!(relit.second, other.second);
-    assert_eq!(relit.second_gradient, other.second_gradient);
 }
 
 #[test]
