@@ -3,8 +3,9 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
+use crate::support::{changed, start};
 use relievo::frames::Lighting;
-use relievo::{Frame, FramePair, Grid, Options, Solver, scene};
+use relievo::{Grid, Options, Solver, scene};
 
 const W: usize = 80;
 const H: usize = 60;
@@ -79,11 +80,8 @@ fn one_change_then_another_is_a_change() {
 #[test]
 fn light_may_be_allowed_for_or_not_while_it_runs() {
     let sequence = scene::render("squares", 96, 72).unwrap();
-    let [first, second] = sequence.frames.clone();
-    let brighter = Frame::from_grey(lit(&second.grey, light(1.2, 0.0))).unwrap();
-    let pair = FramePair::new(first, brighter).unwrap();
-    let camera = sequence.truth.camera;
-    let start = |options| Solver::new(pair.clone(), camera, &sequence.curves, options).unwrap();
+    let sequence = changed(sequence, |i, _, v| if i == 1 { 1.2 * v } else { v });
+    let start = |options| start(&sequence, &sequence.curves, options);
     let off = Options {
         lighting: false,
         ..Options::default()

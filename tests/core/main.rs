@@ -3,6 +3,11 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+// The tables draw with it, by this name.
+#[allow(dead_code)]
+#[path = "../../src/scene/dice.rs"]
+mod dice;
+
 mod automatic;
 mod camera;
 mod constraint;

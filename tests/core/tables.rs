@@ -3,9 +3,6 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-#[allow(dead_code)]
-#[path = "../../src/scene/dice.rs"]
-mod dice;
 #[path = "../../bench/accuracy/overlap.rs"]
 mod overlap;
 #[allow(dead_code)]

@@ -3,9 +3,9 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use relievo::{Grid, Shape};
 use relievo::curves::{contours, labels, length};
 use relievo::paper::{CurveEvolution, Residuals};
+use relievo::{Grid, Shape};
 
 /// Width and height of a frame.
 const W: usize = 64;

@@ -3,10 +3,10 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
+use crate::support::{circle, everything, pair, paper, small, start};
 use relievo::{Camera, Error, Frame, FramePair, Options, Solver, Status, scene};
 #[cfg(target_arch = "wasm32")]
 use relievo::{Grid, options::Preset};
-use crate::support::{circle, everything, pair, paper, small, start};
 
 #[test]
 fn bad_curves_and_bad_settings_change_nothing() {
