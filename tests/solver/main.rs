@@ -6,5 +6,6 @@ mod support;
 mod best;
 mod extremes;
 mod films;
+mod passes;
 mod refused;
 mod steps;

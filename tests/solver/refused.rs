@@ -95,7 +95,7 @@ fn a_curve_that_vanishes_is_reported_and_the_rest_goes_on() {
     }
     let report = solver.report();
     assert_eq!(report.regions[1].pixels, 0);
-    assert!(report.warnings.iter().any(|w| w.contains("curve 1")));
+    assert!(report.warnings.iter().any(|w| w.contains("Curve 1")));
     assert!(solver.contours().is_empty());
     let energy = solver.energy();
     assert!(energy.total().is_finite() && energy.length == 0.0);
