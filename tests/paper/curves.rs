@@ -3,11 +3,22 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use relievo::Grid;
 use relievo::curves::{contours, labels, length};
 use relievo::paper::{CurveEvolution, Residuals};
+use relievo::{Grid, Shape};
 
-use crate::drawn::{H, W, pixels, ring as circle};
+/// Width and height of a frame.
+const W: usize = 64;
+const H: usize = 56;
+
+fn pixels() -> impl Iterator<Item = (usize, usize)> {
+    (0..W * H).map(|i| (i % W, i / W))
+}
+
+/// The level set of a circle in a frame of that size.
+fn circle(x: f64, y: f64, r: f64) -> Grid<f32> {
+    Shape::Circle { x, y, r }.level_set(W, H, 0).unwrap()
+}
 
 /// ξ of each region, the background's first.
 struct Given(Vec<Grid<f32>>);

@@ -4,8 +4,9 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::Grid;
+use relievo::interpretation::NEAREST_FARTHEST;
 use relievo::options::Diffusion;
-use relievo::paper::{DepthDescent, NEAREST_FARTHEST, Smoothness};
+use relievo::paper::{DepthDescent, Smoothness};
 
 const BOTH: [Diffusion; 2] = [Diffusion::Anisotropic, Diffusion::Isotropic];
 

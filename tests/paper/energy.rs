@@ -6,7 +6,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 use relievo::constraint::Coefficients;
 use relievo::frames::{Derivatives, blur};
 
-use crate::solving::{pair, small};
+use crate::support::{pair, small};
 
 #[test]
 fn each_term_is_that_of_7() {

@@ -3,7 +3,7 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use crate::solving::{circle, differing, pair, paper, run, small, start};
+use crate::support::{circle, differing, pair, paper, run, small, start};
 use relievo::scene::{self, Sequence};
 use relievo::score::{compare, compare_flow};
 use relievo::{Frame, FramePair, Interpretation, Shape, Solver, Status, horn_schunck};

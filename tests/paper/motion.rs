@@ -1,4 +1,4 @@
-//! Step 1: rigid motion by least squares, and the small systems it solves.
+//! Step 1: rigid motion by least squares.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -6,7 +6,6 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 use glam::DVec3;
 use relievo::constraint::Coefficients;
 use relievo::frames::Derivatives;
-use relievo::motion::solve_positive;
 use relievo::paper;
 use relievo::{Camera, Grid, RigidMotion};
 
@@ -170,52 +169,4 @@ fn the_scale_of_depth_is_the_scale_of_translation() {
     let found = least_squares(&camera, &derivatives, &nearer, &labels, 0, 0.0).unwrap();
     assert!((4.0 * found.translation - truth[0].translation).length() < 1e-6);
     assert!((found.rotation - truth[0].rotation).length() < 1e-6);
-}
-
-#[test]
-fn small_systems_worked_out_by_hand_are_solved() {
-    let near = |x: &[f64], y: &[f64]| x.iter().zip(y).all(|(x, y)| (x - y).abs() < 1e-12);
-    assert!(near(&solve_positive(&[[4.0]], &[10.0]).unwrap(), &[2.5]));
-    let two = solve_positive(&[[4.0, 2.0], [2.0, 3.0]], &[8.0, 8.0]).unwrap();
-    assert!(near(&two, &[1.0, 2.0]), "{two:?}");
-    let a = [
-        [4.0, 12.0, -16.0],
-        [12.0, 37.0, -43.0],
-        [-16.0, -43.0, 98.0],
-    ];
-    let three = solve_positive(&a, &[-20.0, -43.0, 192.0]).unwrap();
-    assert!(near(&three, &[1.0, 2.0, 3.0]), "{three:?}");
-    // Only the lower triangle is read.
-    let mut lower = a;
-    (lower[0][1], lower[0][2], lower[1][2]) = (f64::NAN, f64::NAN, f64::NAN);
-    assert_eq!(
-        solve_positive(&lower, &[-20.0, -43.0, 192.0]).unwrap(),
-        three
-    );
-}
-
-#[test]
-fn units_of_the_unknowns_do_not_matter() {
-    // [[4, 2], [2, 3]] x = (8, 8) with the second unknown counted in millionths.
-    let (a, b) = ([[4.0, 2e6], [2e6, 3e12]], [8.0, 8e6]);
-    let x = solve_positive(&a, &b).unwrap();
-    assert!(
-        (x[0] - 1.0).abs() < 1e-9 && (1e6 * x[1] - 2.0).abs() < 1e-9,
-        "{x:?}"
-    );
-}
-
-#[test]
-fn systems_that_leave_something_open_are_refused() {
-    let b = [1.0, 1.0];
-    for a in [
-        [[1.0, 1.0], [1.0, 1.0]],
-        [[1.0, 2.0], [2.0, 1.0]],
-        [[0.0, 0.0], [0.0, 1.0]],
-        [[1.0, 0.0], [0.0, -1.0]],
-        [[f64::NAN, 0.0], [0.0, 1.0]],
-        [[1.0, 0.0], [f64::NAN, 1.0]],
-    ] {
-        assert_eq!(solve_positive(&a, &b), None, "{a:?}");
-    }
 }

@@ -200,3 +200,60 @@ fn moments(scale: &Scale, support: &Support, flow: &PlanarFlow) -> Vec<Moments> 
     let full = blocks.into_iter().filter(|(_, count)| *count >= 8);
     full.map(|(sums, _)| sums).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::normal_equations::tests::Made;
+    use super::super::planar::Degree;
+    use super::*;
+
+    fn blocks(made: &Made) -> Blocks {
+        let problem = made.problem(2);
+        let mut flow = PlanarFlow::default();
+        flow.fit(&made.scale, &problem.support, Degree::Plane, 6);
+        Blocks::gather(&made.scale, &problem.support, &flow)
+    }
+
+    /// Degrees between the best of `found` and `truth`.
+    fn nearest(found: &[Candidate], truth: DVec3) -> f64 {
+        let angles = found
+            .iter()
+            .map(|c| c.translation.angle_between(truth).to_degrees());
+        angles.fold(180.0, f64::min)
+    }
+
+    #[test]
+    fn the_true_translation_is_among_the_directions() {
+        for (t, w) in [
+            (DVec3::new(0.03, -0.02, 0.02), DVec3::ZERO),
+            (DVec3::new(0.0, 0.04, -0.03), DVec3::new(0.01, 0.0, 0.01)),
+            (DVec3::new(-0.04, 0.0, 0.0), DVec3::new(0.0, 0.02, 0.0)),
+            (DVec3::new(0.0, 0.0, 0.06), DVec3::new(0.0, 0.0, 0.02)),
+        ] {
+            let made = Made::new(80, 64, t, w);
+            let found = blocks(&made).directions(5, true);
+            assert!((2..=5).contains(&found.len()));
+            let angle = nearest(&found, t);
+            assert!(angle < 15.0, "{t}, {w}: {angle}° off");
+        }
+    }
+
+    #[test]
+    fn without_a_turn_only_the_translation_is_looked_for() {
+        let t = DVec3::new(0.03, -0.02, 0.02);
+        let made = Made::new(80, 64, t, DVec3::ZERO);
+        let found = blocks(&made).directions(3, false);
+        assert!(found.iter().all(|c| c.rotation == DMat3::IDENTITY));
+        let best = found[0].translation;
+        assert!(best.angle_between(t).to_degrees() < 8.0, "{best}");
+        assert!((best.length() / t.length() - 1.0).abs() < 0.1, "{best}");
+    }
+
+    #[test]
+    fn a_turn_alone_is_found() {
+        let w = DVec3::new(0.01, -0.015, 0.02);
+        let made = Made::new(80, 64, DVec3::ZERO, w);
+        let found = glam::DQuat::from_mat3(&blocks(&made).rotation()).to_scaled_axis();
+        assert!((found - w).length() < 1e-3, "{found}");
+    }
+}

@@ -135,3 +135,59 @@ impl Memory {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Costs of two regions, the second better to the right of column 30; noise that says otherwise here and there.
+    fn memory() -> Memory {
+        let mut memory = Memory::default();
+        memory.fit(60, 40, 2);
+        for y in 0..40 {
+            for x in 0..60 {
+                let wrong = (x * 7 + y * 13) % 11 == 0;
+                let second = (x >= 30) != wrong;
+                memory.costs[0][(x, y)] = if second { 10.0 } else { 1.0 };
+                memory.costs[1][(x, y)] = if second { 1.0 } else { 10.0 };
+            }
+        }
+        memory
+    }
+
+    fn wrong(labels: &Grid<u8>) -> usize {
+        let each = labels.data().iter().enumerate();
+        each.filter(|&(i, &l)| (l == 1) != (i % 60 >= 30)).count()
+    }
+
+    #[test]
+    fn labels_follow_costs_and_noise_is_smoothed_away() {
+        for anew in [false, true] {
+            let mut memory = memory();
+            memory.average(true);
+            let mut labels = Grid::from_fn(60, 40, |x, _| u8::from(x >= 24));
+            let before = memory.energy(10.0, &labels);
+            memory.partition(10.0, anew, &mut labels);
+            assert!(wrong(&labels) < 40, "{anew}: {} wrong", wrong(&labels));
+            let after = memory.energy(10.0, &labels);
+            assert!(after[0] + after[1] < before[0] + before[1]);
+        }
+    }
+
+    #[test]
+    fn what_its_owner_does_not_explain_is_offered_to_the_nearest_other() {
+        let mut memory = memory();
+        let most = saturation(2.0);
+        memory.costs[0].data_mut().fill(0.0);
+        // Two places that the background does not explain, one beside the other region.
+        memory.costs[0][(28, 20)] = most;
+        memory.costs[0][(5, 20)] = most;
+        let labels = Grid::from_fn(60, 40, |x, _| u8::from(x >= 30));
+        memory.energy(1.0, &labels);
+        let mut offered = Grid::new(60, 40, 7);
+        memory.offer(2.0, &labels, &mut offered);
+        assert_eq!(offered[(28, 20)], 1);
+        assert_eq!(offered[(5, 20)], NOBODY);
+        assert_eq!(offered[(20, 20)], NOBODY);
+    }
+}

@@ -106,3 +106,75 @@ fn for_each_target(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::camera::Camera;
+    use crate::frames::{Frame, FramePair, Lighting};
+    use crate::layered::estimate::Surface;
+    use crate::layered::scale::pyramid;
+    use crate::window::Window;
+
+    /// A square of columns 20–40 and rows 15–30 that goes five pixels to the right over what is still.
+    fn made() -> (Scale, [State; 2], Grid<u8>) {
+        let frame = |at: usize| {
+            let inside =
+                |x: usize, y: usize| (20 + at..40 + at).contains(&x) && (15..30).contains(&y);
+            let value = |x: usize, y: usize| {
+                let (px, py) = if inside(x, y) {
+                    (x + 300 - at, y + 90)
+                } else {
+                    (x, y)
+                };
+                120.0 + 50.0 * (0.4 * px as f32).sin() * (0.3 * py as f32 + 0.02 * px as f32).cos()
+            };
+            Frame::from_grey(Grid::from_fn(64, 48, value)).unwrap()
+        };
+        let pair = FramePair::new(frame(0), frame(5)).unwrap();
+        let camera = Camera::centred(64.0, 64, 48).unwrap();
+        let scale = pyramid(&pair, camera, 0.0, Lighting::default()).swap_remove(0);
+        let still = State::still(Surface::flat(8, &Window::whole(64, 48)));
+        let moving = State {
+            translation: DVec3::new(5.0 / 64.0, 0.0, 0.0),
+            ..still.clone()
+        };
+        let labels = Grid::from_fn(64, 48, |x, y| {
+            u8::from((20..40).contains(&x) && (15..30).contains(&y))
+        });
+        (scale, [still, moving], labels)
+    }
+
+    #[test]
+    fn what_a_square_goes_over_is_hidden_and_what_it_leaves_is_not() {
+        let (scale, [still, moving], labels) = made();
+        let occlusion = Occlusion::of(&scale, 0, &[&still, &moving], &labels);
+        for y in 16..29 {
+            for x in 40..44 {
+                assert_eq!(occlusion.at(x as f32, y as f32), 2, "({x}, {y})");
+            }
+            for x in (0..24).chain(47..64) {
+                assert_eq!(occlusion.at(x as f32, y as f32), 0, "({x}, {y})");
+            }
+        }
+        assert_eq!(occlusion.at(-3.0, 20.0), 0);
+        assert_eq!(occlusion.at(1e9, f32::NAN), 0);
+    }
+
+    #[test]
+    fn hidden_pixels_are_charged_chance_at_most() {
+        let (scale, [still, moving], labels) = made();
+        let occlusion = Occlusion::of(&scale, 0, &[&still, &moving], &labels);
+        let chance = Grid::new(64, 48, 3.0);
+        let mut costs = Grid::from_fn(64, 48, |_, y| if y == 20 { 1.0 } else { 9.0 });
+        let hides = occlusion.excuse(&scale, 0, &still, &chance, &mut costs);
+        assert_eq!(hides, [false, true]);
+        assert_eq!(costs[(42, 18)], 3.0);
+        // What fits better than chance keeps its cost, and so does what is seen.
+        assert_eq!(costs[(42, 20)], 1.0);
+        assert_eq!(costs[(50, 18)], 9.0);
+        assert_eq!(costs[(10, 18)], 9.0);
+    }
+}

@@ -5,7 +5,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use crate::solving::{circle, everything, paper, small, start};
+use crate::support::{circle, everything, paper, small, start};
 use relievo::{Options, Shape, Status};
 
 #[test]
@@ -230,8 +230,8 @@ fn the_report_has_every_number_and_time_comes_from_the_clock() {
             number(&format!("/regions/{k}/translation/{axis}"));
             number(&format!("/regions/{k}/rotation/{axis}"));
         }
-        let kind = report["regions"][k as usize]["kind"].as_str().unwrap();
-        assert!(["still", "rotation", "translation", "full"].contains(&kind));
+        let model = report["regions"][k as usize]["model"].as_str().unwrap();
+        assert!(["still", "rotation", "translation", "full"].contains(&model));
     }
     assert!(number("/weights/mu") > 0.0 && number("/weights/lambda") > 0.0);
     assert!(report["warnings"].as_array().unwrap().is_empty());

@@ -3,19 +3,11 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
+use crate::support::{grey_pair, pair, texture};
 use glam::DVec3;
 use relievo::scene;
 use relievo::start::{FocalLength, focal_length};
-use relievo::{Camera, Frame, FramePair, Grid, RigidMotion};
-
-/// A texture with detail at several scales and without a period.
-fn texture(x: f64, y: f64) -> f64 {
-    120.0
-        + 22.0 * (0.11 * x + 0.05 * y + 2.0 * (0.043 * y).sin()).sin()
-        + 22.0 * (0.13 * y - 0.04 * x + 2.0 * (0.037 * x).cos()).cos()
-        + 14.0 * (0.5 * x - 0.37 * y + 3.0 * (0.05 * x).sin()).sin()
-        + 14.0 * (0.43 * y + 0.41 * x + 3.0 * (0.045 * y).cos()).cos()
-}
+use relievo::{Camera, FramePair, Grid, RigidMotion};
 
 /// Three walls one behind the other, seen by a camera before and after `motion`. Lengths are in widths of
 /// the frame, of `width` × ¾ `width` pixels.
@@ -50,9 +42,9 @@ fn walls(width: usize, focal: f64, motion: RigidMotion) -> FramePair {
     };
     let frame = |t: f64| {
         let seen = |x, y| brightness(x as f64, y as f64, t).unwrap();
-        Frame::from_grey(Grid::from_fn(width, height, seen)).unwrap()
+        Grid::from_fn(width, height, seen)
     };
-    FramePair::new(frame(0.0), frame(1.0)).unwrap()
+    grey_pair(frame(0.0), frame(1.0))
 }
 
 /// Shifts the picture by so many widths of the frame where a wall is at 1, and turns it by as many more.
@@ -88,8 +80,7 @@ fn scenery_before_a_turning_camera_tells_it() {
 #[test]
 fn it_is_found_in_noise_and_beside_things_that_move_by_themselves() {
     let scene = scene::variant("blocks", 1014, 4.0, 6.0, 320, 240).unwrap();
-    let [first, second] = scene.frames;
-    let pair = FramePair::new(first, second).unwrap();
+    let pair = pair(&scene);
     let mut guess = scene.truth.camera;
     let truth = guess.focal;
     assert_eq!(

@@ -3,19 +3,15 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
+use crate::support::{grey_pair, noise, pair, texture};
 use glam::DVec3;
 use relievo::scene::{self, Sequence};
 use relievo::start::{automatic, focal_length};
-use relievo::{Camera, Frame, FramePair, Grid, Options, RigidMotion, Shape, Solver};
-
-fn pair(frames: [Frame; 2]) -> FramePair {
-    let [first, second] = frames;
-    FramePair::new(first, second).unwrap()
-}
+use relievo::{Camera, FramePair, Grid, Options, RigidMotion, Shape, Solver};
 
 /// What is found in a sequence.
 fn found(sequence: &Sequence) -> Vec<Shape> {
-    automatic(&pair(sequence.frames.clone()), &sequence.truth.camera)
+    automatic(&pair(sequence), &sequence.truth.camera)
 }
 
 fn corners(shape: &Shape) -> &[[f64; 2]] {
@@ -103,19 +99,10 @@ fn scenery_at_all_depths_is_one_body() {
 const W: usize = 160;
 const H: usize = 120;
 
-/// A texture with detail at several scales and without a period.
-fn texture(x: f64, y: f64) -> f64 {
-    120.0
-        + 22.0 * (0.11 * x + 0.05 * y + 2.0 * (0.043 * y).sin()).sin()
-        + 22.0 * (0.13 * y - 0.04 * x + 2.0 * (0.037 * x).cos()).cos()
-        + 14.0 * (0.5 * x - 0.37 * y + 3.0 * (0.05 * x).sin()).sin()
-        + 14.0 * (0.43 * y + 0.41 * x + 3.0 * (0.045 * y).cos()).cos()
-}
-
 /// A still texture on which a square of `half` a side around (x, y) moves by (u, v).
 fn square(x: f64, y: f64, half: f64, (u, v): (f64, f64)) -> FramePair {
     let frame = |t: f64| {
-        let picture = Grid::from_fn(W, H, |px, py| {
+        Grid::from_fn(W, H, |px, py| {
             let (px, py) = (px as f64, py as f64);
             let (dx, dy) = (px - x - t * u, py - y - t * v);
             let value = if dx.abs() < half && dy.abs() < half {
@@ -124,10 +111,9 @@ fn square(x: f64, y: f64, half: f64, (u, v): (f64, f64)) -> FramePair {
                 texture(px, py)
             };
             value as f32
-        });
-        Frame::from_grey(picture).unwrap()
+        })
     };
-    pair([frame(0.0), frame(1.0)])
+    grey_pair(frame(0.0), frame(1.0))
 }
 
 fn camera() -> Camera {
@@ -151,10 +137,9 @@ fn a_lone_square_is_found_wherever_it_goes() {
 fn where_nothing_moves_no_curve_is_found() {
     // Frames without contrast, and equal ones, are no pair: here one pixel differs.
     let still = |mut grey: Grid<f32>| {
-        let first = Frame::from_grey(grey.clone()).unwrap();
+        let first = grey.clone();
         grey[(20, 30)] += 1.0;
-        let second = Frame::from_grey(grey).unwrap();
-        automatic(&pair([first, second]), &camera())
+        automatic(&grey_pair(first, grey), &camera())
     };
     let picture =
         |f: &dyn Fn(f64, f64) -> f64| Grid::from_fn(W, H, |x, y| f(x as f64, y as f64) as f32);
@@ -172,32 +157,20 @@ fn where_nothing_moves_no_curve_is_found() {
     // Frames of two scenes.
     let [one, other] = ["blocks", "head"].map(|name| scene::render(name, W, H).unwrap());
     let [[first, _], [second, _]] = [one.frames, other.frames];
-    assert_eq!(automatic(&pair([first, second]), &camera()), []);
+    let pair = FramePair::new(first, second).unwrap();
+    assert_eq!(automatic(&pair, &camera()), []);
     // Two frames of nothing but noise, and a texture under noise of its own in each frame.
     for (share, seed) in [(0.0, 1), (0.0, 5), (1.0, 3)] {
-        let frames = [seed, seed + 1].map(|seed| {
-            let noise = noise(seed);
+        let [first, second] = [seed, seed + 1].map(|seed| {
+            let noise = noise(W, H, seed);
             let value = |x: f64, y: f64| {
-                120.0 + share * (texture(x, y) - 120.0) + noise[(x as usize, y as usize)]
+                120.0 + share * (texture(x, y) - 120.0) + 5.0 * noise[(x as usize, y as usize)]
             };
-            Frame::from_grey(picture(&value)).unwrap()
+            picture(&value)
         });
-        assert_eq!(automatic(&pair(frames), &camera()), [], "share {share}");
+        let found = automatic(&grey_pair(first, second), &camera());
+        assert_eq!(found, [], "share {share}");
     }
-}
-
-/// Noise of five grey levels (a sum of four uniform numbers).
-fn noise(seed: u64) -> Grid<f64> {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let mut uniform = || {
-        state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
-        (state >> 33) as f64 / f64::from(1u32 << 31) - 0.5
-    };
-    Grid::from_fn(W, H, |_, _| {
-        5.0 * 3f64.sqrt() * (0..4).map(|_| uniform()).sum::<f64>()
-    })
 }
 
 #[test]
@@ -221,8 +194,7 @@ fn a_turn_of_the_camera_moves_nothing_by_itself() {
         let (u, v) = camera().displacement(&back, x, y, 0.0).unwrap();
         still(x + u, y + v)
     });
-    let frames = [first, second].map(|grey| Frame::from_grey(grey).unwrap());
-    assert_eq!(automatic(&pair(frames), &camera()), []);
+    assert_eq!(automatic(&grey_pair(first, second), &camera()), []);
 }
 
 #[test]
@@ -241,8 +213,12 @@ fn polygons_lie_in_the_frame_and_are_fit_to_start_from() {
         }
         assert!(corners.iter().any(|[_, y]| *y == 119.0));
     }
-    let frames = pair(figure.frames.clone());
-    let solver = Solver::new(frames, figure.truth.camera, &curves, Options::default());
+    let solver = Solver::new(
+        pair(&figure),
+        figure.truth.camera,
+        &curves,
+        Options::default(),
+    );
     assert_eq!(solver.unwrap().interpretation().regions(), 2);
 }
 
@@ -273,12 +249,10 @@ fn larger_frames_give_the_same_curves_larger() {
 #[test]
 fn a_mirrored_pair_gives_mirrored_curves() {
     let sequence = scene::render("carousel", 160, 120).unwrap();
-    let mirrored = sequence.frames.clone().map(|frame| {
-        let grey = Grid::from_fn(160, 120, |x, y| frame.grey[(159 - x, y)]);
-        Frame::from_grey(grey).unwrap()
-    });
+    let [first, second] =
+        [0, 1].map(|i| Grid::from_fn(160, 120, |x, y| sequence.frames[i].grey[(159 - x, y)]));
     let curves = found(&sequence);
-    let others = automatic(&pair(mirrored), &sequence.truth.camera);
+    let others = automatic(&grey_pair(first, second), &sequence.truth.camera);
     assert_eq!(others.len(), curves.len());
     for curve in &curves {
         let flipped = Grid::from_fn(160, 120, |x, y| {
@@ -298,22 +272,22 @@ fn the_same_frames_give_the_same_curves() {
 #[test]
 fn frames_of_any_size_are_taken() {
     let stripes = |width: usize, height: usize, shift: f64| {
-        let picture = Grid::from_fn(width, height, |x, y| {
+        Grid::from_fn(width, height, |x, y| {
             texture(x as f64 - shift, y as f64) as f32
-        });
-        Frame::from_grey(picture).unwrap()
+        })
     };
     for (width, height) in [(16, 16), (16, 600), (600, 17), (28, 28)] {
-        let frames = [0.0, 0.8].map(|shift| stripes(width, height, shift));
+        let [first, second] = [0.0, 0.8].map(|shift| stripes(width, height, shift));
         let camera = Camera::centred(100.0, width, height).unwrap();
-        assert_eq!(automatic(&pair(frames), &camera), [], "{width}×{height}");
+        let found = automatic(&grey_pair(first, second), &camera);
+        assert_eq!(found, [], "{width}×{height}");
     }
 }
 
 #[test]
 fn no_camera_is_too_odd_to_look_through() {
     let sequence = scene::render("squares", 96, 72).unwrap();
-    let pair = pair(sequence.frames.clone());
+    let pair = pair(&sequence);
     let odd = [
         Camera::new(1.0, 47.5, 35.5),
         Camera::new(1e6, 47.5, 35.5),

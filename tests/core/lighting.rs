@@ -3,9 +3,9 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
+use crate::support::{changed, start};
 use relievo::frames::Lighting;
-use relievo::warp::Scale;
-use relievo::{Frame, FramePair, Grid, Options, Solver, scene};
+use relievo::{Grid, Options, Solver, scene};
 
 const W: usize = 80;
 const H: usize = 60;
@@ -78,33 +78,10 @@ fn one_change_then_another_is_a_change() {
 }
 
 #[test]
-fn a_scale_relit_is_that_of_frames_in_that_light() {
-    let camera = relievo::Camera::centred(60.0, W, H).unwrap();
-    let change = light(0.8, 10.0);
-    let second = picture().map(|v| 0.9 * v);
-    let mut relit = Scale::new(camera, picture(), second.clone());
-    relit.relight(change);
-    let other = Scale::new(camera, lit(&picture(), change), second);
-    let same = |a: &Grid<f32>, b: &Grid<f32>| {
-        let mut pairs = a.data().iter().zip(b.data());
-        pairs.all(|(a, b)| (a - b).abs() < 1e-3 * (1.0 + b.abs()))
-    };
-    assert!(same(&relit.first, &other.first));
-    assert!(same(&relit.first_gradient.0, &other.first_gradient.0));
-    assert!(same(&relit.first_gradient.1, &other.first_gradient.1));
-    assert!(same(&relit.bend, &other.bend));
-    assert_eq!(relit.second, other.second);
-    assert_eq!(relit.second_gradient, other.second_gradient);
-}
-
-#[test]
 fn light_may_be_allowed_for_or_not_while_it_runs() {
     let sequence = scene::render("squares", 96, 72).unwrap();
-    let [first, second] = sequence.frames.clone();
-    let brighter = Frame::from_grey(lit(&second.grey, light(1.2, 0.0))).unwrap();
-    let pair = FramePair::new(first, brighter).unwrap();
-    let camera = sequence.truth.camera;
-    let start = |options| Solver::new(pair.clone(), camera, &sequence.curves, options).unwrap();
+    let sequence = changed(sequence, |i, _, v| if i == 1 { 1.2 * v } else { v });
+    let start = |options| start(&sequence, &sequence.curves, options);
     let off = Options {
         lighting: false,
         ..Options::default()

@@ -9,15 +9,15 @@ use relievo::curves::{contours, labels, length};
 use relievo::{Contour, Error, Grid, Shape};
 
 /// Width and height of a frame.
-pub const W: usize = 64;
-pub const H: usize = 56;
+const W: usize = 64;
+const H: usize = 56;
 
-pub fn pixels() -> impl Iterator<Item = (usize, usize)> {
+fn pixels() -> impl Iterator<Item = (usize, usize)> {
     (0..W * H).map(|i| (i % W, i / W))
 }
 
 /// The level set of a circle in a frame of that size.
-pub fn ring(x: f64, y: f64, r: f64) -> Grid<f32> {
+fn ring(x: f64, y: f64, r: f64) -> Grid<f32> {
     Shape::Circle { x, y, r }.level_set(W, H, 0).unwrap()
 }
 

@@ -3,12 +3,10 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-mod solving;
-
+use crate::support::{circle, everything, pair, paper, small, start};
 use relievo::{Camera, Error, Frame, FramePair, Options, Solver, Status, scene};
 #[cfg(target_arch = "wasm32")]
 use relievo::{Grid, options::Preset};
-use solving::{circle, everything, pair, paper, small, start};
 
 #[test]
 fn bad_curves_and_bad_settings_change_nothing() {
@@ -97,7 +95,7 @@ fn a_curve_that_vanishes_is_reported_and_the_rest_goes_on() {
     }
     let report = solver.report();
     assert_eq!(report.regions[1].pixels, 0);
-    assert!(report.warnings.iter().any(|w| w.contains("curve 1")));
+    assert!(report.warnings.iter().any(|w| w.contains("Curve 1")));
     assert!(solver.contours().is_empty());
     let energy = solver.energy();
     assert!(energy.total().is_finite() && energy.length == 0.0);

@@ -1,0 +1,25 @@
+//! What both presets rest on: camera, frames, curves, files, options, scores; and the curves and focal length to start from.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+// The tables draw with it, by this name.
+#[allow(dead_code)]
+#[path = "../../src/scene/dice.rs"]
+mod dice;
+
+mod automatic;
+mod camera;
+mod constraint;
+mod derivatives;
+mod drawn;
+mod files;
+mod focal;
+mod frames;
+mod horn_schunck;
+mod lighting;
+mod options;
+mod pyramid;
+mod score;
+mod tables;
+mod window;

@@ -1,0 +1,3 @@
+//! The built-in sequences and random scenes.
+
+mod scene;

@@ -1,0 +1,11 @@
+//! The solver: its interface under both presets, what it refuses, and what the preset `best` finds and promises.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod best;
+mod extremes;
+mod films;
+mod passes;
+mod refused;
+mod steps;

@@ -1,0 +1,3 @@
+//! Pictures and meshes of what was found.
+
+mod view;
