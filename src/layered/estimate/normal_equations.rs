@@ -106,6 +106,9 @@ pub(crate) struct NormalEquations {
     pub motion: [[f64; 6]; 6],
     /// Σ c(e), grey levels².
     pub cost: f64,
+    /// Pixels that could be compared.
+    #[cfg(test)]
+    pub pixels: usize,
     /// 1.4826 times the median |e|, grey levels.
     pub spread: f32,
     rows: Rows,
@@ -198,6 +201,10 @@ impl NormalEquations {
             for b in a..6 {
                 self.motion[a][b] = lanes[a][b].iter().map(|&v| f64::from(v)).sum();
             }
+        }
+        #[cfg(test)]
+        {
+            self.pixels = histogram.iter().sum::<u32>() as usize;
         }
         self.spread = spread(&histogram);
     }

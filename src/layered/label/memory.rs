@@ -164,7 +164,6 @@ mod tests {
     fn labels_follow_costs_and_noise_is_smoothed_away() {
         for anew in [false, true] {
             let mut memory = memory();
-            memory.average(true);
             let mut labels = Grid::from_fn(60, 40, |x, _| u8::from(x >= 24));
             let before = memory.energy(10.0, &labels);
             memory.partition(10.0, anew, &mut labels);
