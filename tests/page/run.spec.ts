@@ -103,7 +103,7 @@ test("where energies do not compare the line is broken, and that is said", async
   expect(made.length).toBeGreaterThan(0);
   await expect(
     page.getByRole("img", { name: "Energy after each pass" }),
-  ).toHaveAccessibleDescription(/^Since the last dashed line .*compared only between two lines/);
+  ).toHaveAccessibleDescription(/^Since the last dashed line: .*compared only between two lines/);
   // Nothing is drawn in the column of a break but its dashed line, which is grey.
   const columns = await page.evaluate(
     ({ passes, after }) => {
