@@ -10,6 +10,7 @@ import {
   PATIENCE,
   read,
   ready,
+  runLong,
   runPasses,
   test,
   until,
@@ -262,12 +263,13 @@ test("curves can be moved while it runs, and the run takes them up", async ({ op
 });
 
 test("a curve drawn while it runs joins in", async ({ opened: page }) => {
-  await page.getByRole("button", { name: "Run" }).click();
-  await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+  await runLong(page);
   await page.getByRole("button", { name: "Add a circle" }).click();
   await until(page, (state) => state.report!.regions.length === 4);
   await page.getByRole("button", { name: "Undo", exact: true }).click();
   await until(page, (state) => state.report!.regions.length === 3);
+  expect(await read(page, (state) => state.running)).toBe(true);
+  await page.getByLabel("Pace").selectOption("as fast as it goes");
   await until(page, (state) => !state.running);
   await expect(page.locator("#status")).toContainText("Converged");
   await expect(page.locator("#message")).toBeHidden();

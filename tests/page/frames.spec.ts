@@ -46,6 +46,8 @@ test("two frames are picked, first and second, and run", async ({ opened: page }
   expect(await read(page, (state) => state.shapes)).toEqual([]);
   expect(await read(page, (state) => state.camera.focal)).toBe((await kept(page)).width);
   await expect(page.locator("#scores-panel")).toBeHidden();
+  // A demonstration is for watching; one's own frames are for the result.
+  await expect(page.getByLabel("Pace")).toHaveValue("0");
   await page.getByRole("button", { name: "Add a circle" }).click();
   await runPasses(page, 2);
   expect(await read(page, (state) => state.report!.regions.length)).toBe(2);

@@ -61,6 +61,14 @@ export async function runPasses(page: Page, count: number): Promise<void> {
   await pauseRun(page);
 }
 
+/** Sets a run going that lasts far longer than any test looks at it. */
+export async function runLong(page: Page): Promise<void> {
+  await page.getByLabel("Preset").selectOption("paper");
+  await page.getByLabel("Pace").selectOption("slow enough to watch");
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+}
+
 /** Runs to the end, as fast as it goes. */
 export async function solve(page: Page): Promise<void> {
   await page.getByLabel("Pace").selectOption("as fast as it goes");

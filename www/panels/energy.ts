@@ -134,5 +134,5 @@ function inWords({ report }: Readonly<State>): string {
   const [first = number(total), ...later] = report.history.slice(since).map((e) => number(e));
   const fall = later.length > 0 ? `from ${first} to ${later.at(-1)}` : `${first} after one pass`;
   if (since === 0) return `${sentence(fall)} ${left}`;
-  return `Since the last dashed line ${fall}. ${left} At a dashed line a finer scale begins, weights are chosen anew or curves were drawn: energy can be compared only between two lines.`;
+  return `Since the last dashed line: ${fall}. ${left} At a dashed line a finer scale begins, weights are chosen anew or curves were drawn: energy can be compared only between two lines.`;
 }
