@@ -27,7 +27,6 @@ export async function setup() {
   await rust();
   await packages();
   await tool("wasm-bindgen-cli", "wasm-bindgen", lockedVersion("wasm-bindgen"));
-  await tool("wasm-pack", "wasm-pack", "0.15.1");
   rmSync(COMPILED_ONCE.CARGO_TARGET_DIR, { recursive: true, force: true });
 }
 

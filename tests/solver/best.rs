@@ -147,8 +147,7 @@ fn what_does_not_translate_has_no_confidence_in_depth() {
 
 /// Mild relief before a camera that shifts and turns about what it looks at has a mirror image that explains the frames
 /// nearly as well.
-#[test]
-fn nothing_is_sure_of_a_mirror_image() {
+fn mirror_images(focal: f64) {
     let mut sure_at_all = 0;
     for (height, shift, turn) in [
         (0.03, 0.01, 0.01),
@@ -157,8 +156,9 @@ fn nothing_is_sure_of_a_mirror_image() {
         (0.1, 0.02, -0.01),
         (0.2, 0.02, 0.02),
     ] {
+        let (shift, turn) = (shift * 220.0 / focal, turn * 220.0 / focal);
         let moves = motion([shift, 0.3 * shift, 0.0], [0.3 * turn, -turn, 0.0]);
-        let sequence = surface(SIZE, 220.0, moves, hills(height));
+        let sequence = surface(SIZE, focal, moves, hills(height));
         let found = solved(&sequence).interpretation();
         let truth = &sequence.truth.depth;
         let sure: Vec<(f64, f64)> = (0..truth.len())
@@ -180,7 +180,18 @@ fn nothing_is_sure_of_a_mirror_image() {
         let (own, flat) = (off(&|z| z), off(&|_| 1.0));
         assert!(own < flat, "hills of {height}: {own}, flat {flat}");
     }
-    assert!(sure_at_all > 0, "it is never sure");
+    assert!(focal > 500.0 || sure_at_all > 0, "it is never sure");
+}
+
+#[test]
+fn nothing_is_sure_of_a_mirror_image() {
+    mirror_images(220.0);
+}
+
+#[test]
+#[ignore = "fails: T points the other way, with full confidence"]
+fn nothing_is_sure_of_a_mirror_image_through_a_long_lens() {
+    mirror_images(800.0);
 }
 
 /// Of the regions of random scenes, some are sure of a depth that is worse than a flat guess.

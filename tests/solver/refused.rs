@@ -5,8 +5,6 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use crate::support::{circle, everything, pair, paper, small, start};
 use relievo::{Camera, Error, Frame, FramePair, Options, Solver, Status, scene};
-#[cfg(target_arch = "wasm32")]
-use relievo::{Grid, options::Preset};
 
 #[test]
 fn bad_curves_and_bad_settings_change_nothing() {
@@ -113,24 +111,4 @@ fn frames_that_hold_no_numbers_end_as_diverged() {
     assert_eq!(solver.step(), Status::Diverged);
     assert_eq!(solver.step(), Status::Diverged);
     assert_eq!(solver.iterations(), 1);
-}
-
-/// Natively there is memory enough.
-#[cfg(target_arch = "wasm32")]
-#[test]
-fn frames_beyond_the_memory_of_wasm_are_refused_before_anything_is_done() {
-    let (width, height) = (2400, 1800);
-    let frame = |shift: usize| {
-        let grey = Grid::from_fn(width, height, |x, y| ((x + shift) * (y + 3) % 251) as f32);
-        Frame::from_grey(grey).unwrap()
-    };
-    let pair = FramePair::new(frame(0), frame(1)).unwrap();
-    let camera = Camera::centred(2400.0, width, height).unwrap();
-    let solver = |options| Solver::new(pair.clone(), camera, &[], options);
-    let Err(error) = solver(Options::default()) else {
-        panic!("taken on");
-    };
-    let sentence = error.to_string();
-    assert!(sentence.contains("2400×1800") && sentence.contains("4 megapixels"));
-    assert!(solver(Options::preset(Preset::Paper)).is_ok());
 }
