@@ -64,7 +64,8 @@ pub mod grid;
 pub mod horn_schunck;
 // Read by the layered solver.
 #[allow(dead_code, unused_imports)]
-mod init;
+#[allow(missing_docs)]
+pub mod init;
 pub mod interpretation;
 #[doc(hidden)]
 #[allow(missing_docs)]

@@ -1,0 +1,128 @@
+//! The motion of the background: the one rigid motion that explains most segments.
+//!
+//! The segment that holds most of the frame's border decides whether the camera stands still or turns: nearly all of
+//! it has to be explained then. Otherwise the full motion is sought from all matches and from that segment, each time
+//! anew from the segments that it explains; the motion that explains more of the frame stays.
+
+use glam::DQuat;
+
+use super::epipolar::{MotionModel, Pair, epipolar_motion, median};
+use super::matches::Match;
+use super::rotation::rotation_alone;
+use super::sample::{Carrier, Sample};
+use super::segments::Segments;
+use crate::camera::{Camera, RigidMotion};
+
+/// χ² above which a match is not explained.
+pub const UNEXPLAINED: f64 = 9.0;
+/// Width of the border in shares of the frame's sides.
+const BORDER: f32 = 0.1;
+/// Share of the border's matches that rest or a rotation has to explain.
+const MOST: f64 = 0.65;
+/// Greatest median χ² of the border's matches under rest; 1.39 is expected.
+const STILL: f64 = 3.0;
+/// The same under a rotation, which far scenery in translation resembles.
+const TURNED: f64 = 1.8;
+/// Share of a segment's matches that the motion that carries it explains.
+pub const CARRIED: f64 = 0.8;
+/// Times that the motion is found anew from what it explains.
+const ROUNDS: usize = 2;
+/// Matches used for the full motion, about.
+const SAMPLE: usize = 1500;
+
+/// The background's motion; `None` where too little is matched.
+pub fn background(
+    samples: &[Sample],
+    segments: impl FnOnce() -> Segments,
+    camera: &Camera,
+    size: [usize; 2],
+) -> Option<(RigidMotion, bool)> {
+    let border: Vec<&Sample> = samples.iter().filter(|s| on_border(s, size)).collect();
+    let fits = |motion: &RigidMotion, middle: f64| {
+        let carrier = Carrier::new(motion, camera);
+        let misfit: Vec<f64> = border.iter().map(|s| carrier.misfit(s)).collect();
+        let explained = misfit.iter().filter(|&&m| m < UNEXPLAINED).count();
+        explained as f64 > MOST * misfit.len() as f64 && median(misfit) < middle
+    };
+    let still = RigidMotion::default();
+    if fits(&still, STILL) {
+        return Some((still, false));
+    }
+    let mut pairs: Vec<Pair> = border.iter().map(|s| s.pair()).collect();
+    let mut turned = still;
+    for _ in 0..ROUNDS {
+        let (rotation, _) = rotation_alone(&pairs, camera.focal);
+        turned.rotation = DQuat::from_mat3(&rotation).to_scaled_axis();
+        let carrier = Carrier::new(&turned, camera);
+        let explained = samples.iter().filter(|s| carrier.misfit(s) < UNEXPLAINED);
+        pairs = explained.map(Sample::pair).collect();
+    }
+    if fits(&turned, TURNED) {
+        return Some((turned, false));
+    }
+    let debug = std::env::var("DUMP").is_ok();
+    let segments = segments();
+    let mut held = vec![0usize; segments.count];
+    for (sample, segment) in samples.iter().zip(&segments.of) {
+        if let Some(s) = segment.filter(|_| on_border(sample, size)) {
+            held[s] += 1;
+        }
+    }
+    let outer = (0..segments.count).max_by_key(|&s| held[s])?;
+    let of_outer = |k: &usize| segments.of[*k] == Some(outer);
+    let outer: Vec<usize> = (0..samples.len()).filter(of_outer).collect();
+    let everything: Vec<usize> = (0..samples.len()).collect();
+    let mut best: Option<(usize, RigidMotion)> = None;
+    for start in [everything, outer] {
+        let mut chosen = start;
+        for _ in 0..=ROUNDS {
+            let Some(motion) = full(samples, &chosen, camera) else {
+                break;
+            };
+            chosen = carried(samples, &segments, &motion, camera);
+            if debug {
+                eprintln!("full {motion:?} carries {}", chosen.len());
+            }
+            if best.is_none_or(|(count, _)| chosen.len() > count) {
+                best = Some((chosen.len(), motion));
+            }
+        }
+    }
+    best.map(|(_, motion)| (motion, true))
+}
+
+fn full(samples: &[Sample], chosen: &[usize], camera: &Camera) -> Option<RigidMotion> {
+    let stride = (chosen.len() / SAMPLE).max(1);
+    let each = chosen.iter().step_by(stride);
+    let matches: Vec<Match> = each.map(|&k| samples[k].matched).collect();
+    let found = epipolar_motion(&matches, camera)?;
+    (found.model == MotionModel::Full).then_some(found.motion)
+}
+
+/// The explained matches of those segments that `motion` carries.
+fn carried(
+    samples: &[Sample],
+    segments: &Segments,
+    motion: &RigidMotion,
+    camera: &Camera,
+) -> Vec<usize> {
+    let carrier = Carrier::new(motion, camera);
+    let explained: Vec<bool> = samples
+        .iter()
+        .map(|s| carrier.misfit(s) < UNEXPLAINED)
+        .collect();
+    let shares = segments.shares(|k| explained[k]);
+    let carried = |k: &usize| {
+        explained[*k] && segments.of[*k].is_some_and(|s| shares[s] > CARRIED)
+    };
+    (0..samples.len()).filter(carried).collect()
+}
+
+fn on_border(sample: &Sample, [width, height]: [usize; 2]) -> bool {
+    let near = |at: f32, side: usize| {
+        let side = side as f32;
+        at < BORDER * side || at > (1.0 - BORDER) * side
+    };
+    let [x, y] = sample.matched.at;
+    near(x, width) || near(y, height)
+}
