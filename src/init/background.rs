@@ -4,7 +4,7 @@
 //! it has to be explained then. Otherwise the full motion is sought from all matches and from that segment, each time
 //! anew from the segments that it explains; the motion that explains more of the frame stays.
 
-use glam::DQuat;
+use glam::{DQuat, DVec3};
 
 use super::epipolar::{MotionModel, Pair, epipolar_motion, median};
 use super::matches::Match;
@@ -27,6 +27,10 @@ const TURNED: f64 = 1.8;
 pub const CARRIED: f64 = 0.8;
 /// Times that the motion is found anew from what it explains.
 const ROUNDS: usize = 2;
+/// Share of matches above which a motion is not turned.
+const PLENTY: f64 = 0.95;
+/// Shifts tried, in pixels.
+const SHIFTS: [f64; 8] = [-6.0, -4.0, -2.0, -1.0, 1.0, 2.0, 4.0, 6.0];
 /// Matches used for the full motion, about.
 const SAMPLE: usize = 1500;
 
@@ -79,6 +83,7 @@ pub fn background(
             let Some(motion) = full(samples, &chosen, camera) else {
                 break;
             };
+            let motion = ahead(samples, motion, camera);
             chosen = carried(samples, &segments, &motion, camera);
             if debug {
                 eprintln!("full {motion:?} carries {}", chosen.len());
@@ -99,6 +104,31 @@ fn full(samples: &[Sample], chosen: &[usize], camera: &Camera) -> Option<RigidMo
     (found.model == MotionModel::Full).then_some(found.motion)
 }
 
+/// `motion`, with the turn that brings most matches before the camera. A turn about an axis across T and the optical
+/// axis shifts the picture along epipolar lines that are nearly parallel: what it does is then not seen in e, but in
+/// points that would lie beyond infinity.
+fn ahead(samples: &[Sample], motion: RigidMotion, camera: &Camera) -> RigidMotion {
+    let across = DVec3::Z.cross(motion.translation);
+    let turned = |pixels: f64| RigidMotion {
+        rotation: motion.rotation + across * (pixels / camera.focal),
+        ..motion
+    };
+    let explained = |motion: &RigidMotion| {
+        let carrier = Carrier::new(motion, camera);
+        samples.iter().filter(|s| carrier.misfit(s) < UNEXPLAINED).count()
+    };
+    let here = explained(&motion);
+    if here as f64 > PLENTY * samples.len() as f64 {
+        return motion;
+    }
+    let tried = SHIFTS.map(|pixels| turned(pixels));
+    let best = tried.into_iter().map(|m| (explained(&m), m)).max_by_key(|(count, _)| *count);
+    match best {
+        Some((count, better)) if count > here => better,
+        _ => motion,
+    }
+}
+
 /// The explained matches of those segments that `motion` carries.
 fn carried(
     samples: &[Sample],
@@ -113,7 +143,7 @@ fn carried(
         .collect();
     let shares = segments.shares(|k| explained[k]);
     let carried = |k: &usize| {
-        explained[*k] && segments.of[*k].is_some_and(|s| shares[s] > CARRIED)
+        explained[*k] && segments.of[*k].is_some_and(|s| shares[s] > 0.5)
     };
     (0..samples.len()).filter(carried).collect()
 }

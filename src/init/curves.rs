@@ -1,10 +1,12 @@
 //! Curves that are found rather than drawn.
 
 use super::background::{CARRIED, UNEXPLAINED, background};
-use super::lattice::{Lattice, place};
+use super::epipolar::median;
+use super::lattice::Lattice;
 use super::segments::segments;
 use super::matches::matches;
 use super::outline::{Outline, outlines};
+use super::pieces::{field, joined};
 use super::sample::{Carrier, Sample};
 use crate::camera::Camera;
 use crate::curves::Shape;
@@ -16,6 +18,11 @@ use crate::options::MAX_CURVES;
 const PIXELS: usize = 352 * 288;
 /// A body covers at least this share of the lattice.
 const SMALLEST: f64 = 0.008;
+
+/// Fewest matches of a piece of one.
+const FEW: usize = 12;
+/// Median χ² of what does not follow the background though its flow continues it.
+const STRONG: f64 = 25.0;
 
 /// Curves.
 pub fn find_curves(pair: &FramePair, camera: &Camera) -> Vec<Shape> {
@@ -43,29 +50,32 @@ pub fn find_curves(pair: &FramePair, camera: &Camera) -> Vec<Shape> {
     let carrier = Carrier::new(&motion, &camera);
     let misfit: Vec<f64> = samples.iter().map(|s| carrier.misfit(s)).collect();
     let wanted: Vec<bool> = misfit.iter().map(|&m| m > UNEXPLAINED).collect();
-    let segments = if full {
-        whole()
-    } else {
-        segments(&samples, &lattice, &wanted)
-    };
-    let fewest = SMALLEST * lattice.places() as f64;
-    let shares = segments.shares(|k| !wanted[k]);
-    let found: Vec<Vec<usize>> = (0..segments.count)
-        .filter(|&s| shares[s] <= CARRIED)
-        .map(|s| (0..samples.len()).filter(|&k| segments.of[k] == Some(s)).collect::<Vec<_>>())
-        .filter(|g| g.len() as f64 >= fewest)
-        .collect();
-    if std::env::var("DUMP").is_ok() {
-        for s in 0..segments.count.min(12) {
-            let n = segments.of.iter().filter(|o| **o == Some(s)).count();
-            eprintln!("segment {s}: {n} share {:.2}", shares[s]);
-        }
+    let fewest = (SMALLEST * lattice.places() as f64) as usize;
+    let mut left = wanted.clone();
+    let mut pieces = Vec::new();
+    if full {
+        let segments = whole();
+        let shares = segments.shares(|k| !wanted[k]);
+        pieces = segments.members(|s| shares[s] <= CARRIED);
+        pieces.retain(|piece| piece.len() >= fewest);
+        pieces.iter().flatten().for_each(|&k| left[k] = false);
     }
+    let mut others = segments(&samples, &lattice, &left).members(|_| true);
+    if full {
+        others.retain(|piece| {
+            median(piece.iter().map(|&k| misfit[k]).collect()) > STRONG
+        });
+    }
+    pieces.extend(others);
+    pieces.retain(|piece| piece.len() >= FEW);
+    let mut found = joined(pieces, &samples, &lattice, &camera);
+    found.retain(|piece| piece.len() >= fewest);
     let mut curves: Vec<Outline> = found
         .iter()
-        .flat_map(|group| {
-            let field = field(&samples, &lattice, group);
-            outlines(&field, size, frame)
+        .filter_map(|body| {
+            let field = field(body, &samples, &lattice);
+            let each = outlines(&field, size, frame).into_iter();
+            each.max_by(|a, b| a.share.total_cmp(&b.share))
         })
         .collect();
     let t3 = t0.elapsed();
@@ -79,30 +89,6 @@ pub fn find_curves(pair: &FramePair, camera: &Camera) -> Vec<Shape> {
         points: outline.corners,
     };
     curves.into_iter().map(polygon).collect()
-}
-
-/// Above 0 where most matches around are of the group.
-fn field(samples: &[Sample], lattice: &Lattice, group: &[usize]) -> Grid<f32> {
-    let (across, down) = (lattice.size()[0], lattice.size()[1]);
-    let mut sums = Grid::new(across, down, [0.0f32; 2]);
-    let mut member = vec![false; samples.len()];
-    group.iter().for_each(|&k| member[k] = true);
-    for (k, sample) in samples.iter().enumerate() {
-        let (i, j) = place(sample);
-        let sign = if member[k] { 1.0 } else { -1.0 };
-        for b in -2isize..=2 {
-            for a in -2isize..=2 {
-                let (x, y) = (i as isize + a, j as isize + b);
-                if x >= 0 && y >= 0 && x < across as isize && y < down as isize {
-                    let w = (-0.7 * (a * a + b * b) as f32).exp();
-                    let cell = &mut sums[(x as usize, y as usize)];
-                    cell[0] += w * sign;
-                    cell[1] += w;
-                }
-            }
-        }
-    }
-    sums.map(|[sum, weight]| if weight > 0.0 { sum / weight } else { -1.0 })
 }
 
 fn dump(frame: &Grid<f32>, samples: &[Sample], misfit: &[f64], found: &[Vec<usize>], curves: &[Outline], full: [usize; 2]) {

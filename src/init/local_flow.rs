@@ -80,7 +80,12 @@ impl LocalFlow {
 
     /// By how many pixels two flows disagree half-way between them.
     pub fn jump(&self, other: &Self) -> f64 {
+        self.difference(other).length()
+    }
+
+    /// This displacement less the other's half-way between them, in pixels.
+    pub fn difference(&self, other: &Self) -> DVec2 {
         let middle = 0.5 * (self.at + other.at);
-        (self.displacement(middle) - other.displacement(middle)).length()
+        self.displacement(middle) - other.displacement(middle)
     }
 }

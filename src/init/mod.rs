@@ -10,6 +10,7 @@ mod lattice;
 mod local_flow;
 mod matches;
 mod outline;
+mod pieces;
 mod rotation;
 mod sample;
 mod segments;

@@ -6,6 +6,8 @@
 //! 2. The other matches join the core that they continue best, in rounds.
 //! 3. Two segments are one when their flow is continuous along more than half of the line on which they touch.
 
+use glam::DVec2;
+
 use super::lattice::Lattice;
 use super::local_flow::LocalFlow;
 use super::sample::Sample;
@@ -30,6 +32,18 @@ pub struct Segments {
 }
 
 impl Segments {
+    /// The matches of each segment that is `wanted`.
+    pub fn members(&self, wanted: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+        let mut each = vec![Vec::new(); self.count];
+        for (k, segment) in self.of.iter().enumerate() {
+            if let Some(s) = segment.filter(|&s| wanted(s)) {
+                each[s].push(k);
+            }
+        }
+        each.retain(|members| !members.is_empty());
+        each
+    }
+
     /// The share of each segment's matches for which `holds`.
     pub fn shares(&self, holds: impl Fn(usize) -> bool) -> Vec<f64> {
         let mut counts = vec![[0usize; 2]; self.count];
@@ -120,7 +134,7 @@ fn merge(
     lattice: &Lattice,
     flows: &[LocalFlow],
 ) -> bool {
-    let mut contacts = std::collections::BTreeMap::<(usize, usize), (u32, u32)>::new();
+    let mut contacts = std::collections::BTreeMap::<(usize, usize), (u32, u32, DVec2)>::new();
     for k in 0..of.len() {
         let Some(a) = of[k] else { continue };
         for other in lattice.around(&samples[k], 1).filter(|&other| other > k) {
@@ -128,13 +142,16 @@ fn merge(
                 let contact = contacts.entry((a.min(b), a.max(b))).or_default();
                 contact.0 += 1;
                 contact.1 += u32::from(flows[k].jump(&flows[other]) < CONTINUOUS);
+                let (low, high) = if a < b { (k, other) } else { (other, k) };
+                contact.2 += flows[low].difference(&flows[high]);
             }
         }
     }
     let mut root: Vec<usize> = (0..count).collect();
     let mut any = false;
-    for (&(a, b), &(all, same)) in &contacts {
-        if 2 * same > all {
+    for (&(a, b), &(all, same, sum)) in &contacts {
+        let mean = sum.length() / f64::from(all);
+        if 2 * same > all || (4 * same > all && mean < CONTINUOUS) {
             let (a, b) = (find(&root, a), find(&root, b));
             if a != b {
                 root[a.max(b)] = a.min(b);
