@@ -87,7 +87,15 @@ fn measure(case: &Case, presets: &[Preset]) -> Result<Measured, Failure> {
 
 /// Horn–Schunck's AEE and AAE.
 pub fn baseline(pair: &FramePair, truth: &Interpretation) -> Result<Option<(f64, f64)>, Failure> {
-    let flow = horn_schunck::solve(pair, ALPHA, if std::env::var("NOHS").is_ok() { 1 } else { SWEEPS });
+    let flow = horn_schunck::solve(
+        pair,
+        ALPHA,
+        if std::env::var("NOHS").is_ok() {
+            1
+        } else {
+            SWEEPS
+        },
+    );
     Ok(compare_flow(&flow, &truth.flow, None)?)
 }
 

@@ -1,7 +1,7 @@
-//! The motion of the background: the one rigid motion that explains most segments.
+//! The motion of the background.
 //!
-//! The segment that holds most of the frame's border decides whether the camera stands still or turns: nearly all of
-//! it has to be explained then. Otherwise the full motion is sought from all matches and from that segment, each time
+//! Most of the matches along the frame's border decide whether the camera stands still or turns: they have to be
+//! explained to within their uncertainty then. Otherwise the full motion is sought from all matches and from the segment that holds most of the border, each time
 //! anew from the segments that it explains; the motion that explains more of the frame stays.
 
 use glam::{DQuat, DVec3};
@@ -27,6 +27,8 @@ const TURNED: f64 = 1.8;
 pub const CARRIED: f64 = 0.8;
 /// Times that the motion is found anew from what it explains.
 const ROUNDS: usize = 2;
+/// Share of a segment's matches that the motion has to explain to be found anew from it.
+const MAINLY: f64 = 0.5;
 /// Share of matches above which a motion is not turned.
 const PLENTY: f64 = 0.95;
 /// Shifts tried, in pixels.
@@ -34,7 +36,7 @@ const SHIFTS: [f64; 8] = [-6.0, -4.0, -2.0, -1.0, 1.0, 2.0, 4.0, 6.0];
 /// Matches used for the full motion, about.
 const SAMPLE: usize = 1500;
 
-/// The background's motion; `None` where too little is matched.
+/// The background's motion, and whether it has a translation; `None` where too little is matched.
 pub fn background(
     samples: &[Sample],
     segments: impl FnOnce() -> Segments,
@@ -64,7 +66,6 @@ pub fn background(
     if fits(&turned, TURNED) {
         return Some((turned, false));
     }
-    let debug = std::env::var("DUMP").is_ok();
     let segments = segments();
     let mut held = vec![0usize; segments.count];
     for (sample, segment) in samples.iter().zip(&segments.of) {
@@ -85,15 +86,18 @@ pub fn background(
             };
             let motion = ahead(samples, motion, camera);
             chosen = carried(samples, &segments, &motion, camera);
-            if debug {
-                eprintln!("full {motion:?} carries {}", chosen.len());
-            }
             if best.is_none_or(|(count, _)| chosen.len() > count) {
                 best = Some((chosen.len(), motion));
             }
         }
     }
     best.map(|(_, motion)| (motion, true))
+}
+
+/// The full motion that explains most of all matches.
+pub fn whole_motion(samples: &[Sample], camera: &Camera) -> Option<RigidMotion> {
+    let everything: Vec<usize> = (0..samples.len()).collect();
+    full(samples, &everything, camera)
 }
 
 fn full(samples: &[Sample], chosen: &[usize], camera: &Camera) -> Option<RigidMotion> {
@@ -115,14 +119,20 @@ fn ahead(samples: &[Sample], motion: RigidMotion, camera: &Camera) -> RigidMotio
     };
     let explained = |motion: &RigidMotion| {
         let carrier = Carrier::new(motion, camera);
-        samples.iter().filter(|s| carrier.misfit(s) < UNEXPLAINED).count()
+        samples
+            .iter()
+            .filter(|s| carrier.misfit(s) < UNEXPLAINED)
+            .count()
     };
     let here = explained(&motion);
     if here as f64 > PLENTY * samples.len() as f64 {
         return motion;
     }
     let tried = SHIFTS.map(|pixels| turned(pixels));
-    let best = tried.into_iter().map(|m| (explained(&m), m)).max_by_key(|(count, _)| *count);
+    let best = tried
+        .into_iter()
+        .map(|m| (explained(&m), m))
+        .max_by_key(|(count, _)| *count);
     match best {
         Some((count, better)) if count > here => better,
         _ => motion,
@@ -142,9 +152,7 @@ fn carried(
         .map(|s| carrier.misfit(s) < UNEXPLAINED)
         .collect();
     let shares = segments.shares(|k| explained[k]);
-    let carried = |k: &usize| {
-        explained[*k] && segments.of[*k].is_some_and(|s| shares[s] > 0.5)
-    };
+    let carried = |k: &usize| explained[*k] && segments.of[*k].is_some_and(|s| shares[s] > MAINLY);
     (0..samples.len()).filter(carried).collect()
 }
 

@@ -28,7 +28,9 @@ pub(super) struct Outline {
 /// pixels of a `frame` of another size.
 pub(super) fn outlines(field: &Grid<f32>, small: [usize; 2], frame: [usize; 2]) -> Vec<Outline> {
     let place = |at: usize| (at as f32 - (SPACING / 2) as f32) / SPACING as f32;
-    let level_set = Grid::from_fn(small[0], small[1], |x, y| field.bilinear(place(x), place(y)));
+    let level_set = Grid::from_fn(small[0], small[1], |x, y| {
+        field.bilinear(place(x), place(y))
+    });
     let grow = |value: f32, k: usize| {
         let factor = frame[k] as f64 / small[k] as f64;
         let at = (f64::from(value) + 0.5) * factor - 0.5;

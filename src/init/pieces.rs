@@ -86,7 +86,10 @@ fn labels(pieces: &[Vec<usize>], samples: &[Sample], lattice: &Lattice) -> Grid<
 }
 
 /// Calls `visit` with each place that has no label and the nearest labels on its four sides.
-fn for_gaps(labels: &Grid<Option<usize>>, mut visit: impl FnMut((usize, usize), [Option<usize>; 4])) {
+fn for_gaps(
+    labels: &Grid<Option<usize>>,
+    mut visit: impl FnMut((usize, usize), [Option<usize>; 4]),
+) {
     let (across, down) = (labels.width(), labels.height());
     for y in 0..down {
         for x in 0..across {
@@ -109,7 +112,9 @@ fn rigid(a: &[usize], b: &[usize], samples: &[Sample], camera: &Camera) -> bool 
     epipolar_motion(&matches, camera).is_some_and(|found| {
         let carrier = Carrier::new(&found.motion, camera);
         [a, b].iter().all(|piece| {
-            let near = piece.iter().filter(|&&k| carrier.misfit(&samples[k]) < UNEXPLAINED);
+            let near = piece
+                .iter()
+                .filter(|&&k| carrier.misfit(&samples[k]) < UNEXPLAINED);
             near.count() as f64 >= RIGID * piece.len() as f64
         })
     })

@@ -17,9 +17,12 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use super::epipolar::Pair;
-use super::matches::Match;
+use super::matches::{Match, matches};
 use crate::camera::{Camera, RigidMotion};
+use crate::frames::{FramePair, MIN_SIDE, halved, halved_camera};
 
+/// Frames of more pixels are halved.
+const PIXELS: usize = 352 * 288;
 /// m: what displacements are off beside noise, in pixels.
 const MODEL_ERROR: f64 = 0.12;
 /// How far behind infinity, in pixels, a point may seem to be: R is never exact.
@@ -44,7 +47,38 @@ pub struct Carrier {
     focal: f64,
 }
 
+/// The matches of two frames, halved where they are large.
+pub struct Small {
+    /// The matches.
+    pub samples: Vec<Sample>,
+    /// The camera of the halved frames.
+    pub camera: Camera,
+    /// Their width and height.
+    pub size: [usize; 2],
+}
+
+/// The matches between the frames of `pair`.
+pub fn small_samples(pair: &FramePair, camera: &Camera) -> Small {
+    let mut camera = *camera;
+    let mut frames = [pair.first(), pair.second()].map(|frame| frame.grey.clone());
+    while frames[0].len() > PIXELS && frames[0].width().min(frames[0].height()) >= 2 * MIN_SIDE {
+        frames = frames.map(|frame| halved(&frame));
+        camera = halved_camera(&camera);
+    }
+    let found = matches(&frames[0], &frames[1]).into_iter();
+    let samples = found.map(|m| Sample::new(m, &camera));
+    Small {
+        samples: samples.filter(Sample::finite).collect(),
+        camera,
+        size: [frames[0].width(), frames[0].height()],
+    }
+}
+
 impl Sample {
+    fn finite(&self) -> bool {
+        self.p.is_finite() && self.q.is_finite() && self.weight.iter().all(|w| w.is_finite())
+    }
+
     /// A match as `camera` sees it.
     pub fn new(matched: Match, camera: &Camera) -> Self {
         let ray = |[x, y]: [f32; 2]| camera.ray(x.into(), y.into());
@@ -112,7 +146,11 @@ impl Carrier {
             return sample.product(r, r);
         }
         let least = -BEHIND / u.length();
-        let greatest = if t.z > 1e-6 { t.z.recip() } else { f64::INFINITY };
+        let greatest = if t.z > 1e-6 {
+            t.z.recip()
+        } else {
+            f64::INFINITY
+        };
         let tau = (sample.product(u, r) / length).max(least).min(greatest);
         let off = r - u * tau;
         sample.product(off, off)

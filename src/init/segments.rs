@@ -102,7 +102,13 @@ pub fn segments(samples: &[Sample], lattice: &Lattice, wanted: &[bool]) -> Segme
     by_size(of, count)
 }
 
-fn grow(of: &mut [Option<usize>], samples: &[Sample], lattice: &Lattice, flows: &[LocalFlow], wanted: &[bool]) {
+fn grow(
+    of: &mut [Option<usize>],
+    samples: &[Sample],
+    lattice: &Lattice,
+    flows: &[LocalFlow],
+    wanted: &[bool],
+) {
     loop {
         let joins: Vec<(usize, usize)> = (0..of.len())
             .filter(|&k| wanted[k] && of[k].is_none())

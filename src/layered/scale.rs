@@ -127,17 +127,15 @@ impl Scale {
             sum += row * f32x4::splat(by[j]);
             down += row * f32x4::splat(dy[j]);
         }
-        (
-            [sum, down],
-            f32x4::new(basis(tx)),
-            f32x4::new(slope(tx)),
-        )
+        ([sum, down], f32x4::new(basis(tx)), f32x4::new(slope(tx)))
     }
 
     #[inline(always)]
     fn taps(&self, x: usize, y: usize) -> f32x4 {
         let at = y * self.second.width() + x;
-        let row: [f32; 4] = self.second.data()[at..at + 4].try_into().unwrap_or_default();
+        let row: [f32; 4] = self.second.data()[at..at + 4]
+            .try_into()
+            .unwrap_or_default();
         f32x4::new(row)
     }
 }

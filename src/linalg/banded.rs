@@ -71,7 +71,10 @@ impl Banded {
             let first = r.saturating_sub(bandwidth);
             let row = &self.rows[r * stride..(r + 1) * stride];
             let mut sum = [0.0f32; N];
-            for (l, x) in row[first + bandwidth - r..bandwidth].iter().zip(&b[first..r]) {
+            for (l, x) in row[first + bandwidth - r..bandwidth]
+                .iter()
+                .zip(&b[first..r])
+            {
                 for n in 0..N {
                     sum[n] += l * x[n];
                 }

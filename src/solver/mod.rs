@@ -257,7 +257,12 @@ fn begin(
 ) -> Box<dyn Approach> {
     match options.depth {
         DepthMethod::Descent => Box::new(Paper::new(pair.clone(), camera, level_sets, options)),
-        DepthMethod::Layers => Box::new(crate::layered::Layered::new(pair.clone(), camera, level_sets, options)),
+        DepthMethod::Layers => Box::new(crate::layered::Layered::new(
+            pair.clone(),
+            camera,
+            level_sets,
+            options,
+        )),
     }
 }
 

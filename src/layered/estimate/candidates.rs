@@ -60,8 +60,8 @@ impl Blocks {
             return Vec::new();
         }
         let (blocks, epsilon) = (&self.blocks, self.epsilon);
-    let trace: f32 = blocks.iter().map(|m| m[at(0, 0)] + m[at(1, 1)]).sum();
-    let epsilon = f64::from(1e-4 * trace) / blocks.len() as f64;
+        let trace: f32 = blocks.iter().map(|m| m[at(0, 0)] + m[at(1, 1)]).sum();
+        let epsilon = f64::from(1e-4 * trace) / blocks.len() as f64;
         let mut tried: Vec<Candidate> = hemisphere(DIRECTIONS)
             .map(|direction| judge(blocks, direction, epsilon, turns))
             .collect();

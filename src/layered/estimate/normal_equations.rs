@@ -127,7 +127,12 @@ impl NormalEquations {
         sigma: f32,
         derivatives: bool,
     ) {
-        let Window { left, top, width, height } = support.window;
+        let Window {
+            left,
+            top,
+            width,
+            height,
+        } = support.window;
         self.rows.fit(width);
         self.rows.clear_sums();
         self.cells.clear();
@@ -237,7 +242,9 @@ impl Rows {
             scale.camera.cy as f32,
         );
         let labels = &support.labels.row(y)[left..left + n];
-        let offered = support.offered.map_or(labels, |o| &o.row(y)[left..left + n]);
+        let offered = support
+            .offered
+            .map_or(labels, |o| &o.row(y)[left..left + n]);
         let first = &scale.first.row(y)[left..left + n];
         let [px, py, _] = &self.place;
         let [gx, gy, _] = &mut self.lever;

@@ -63,7 +63,11 @@ impl PlanarFlow {
         let (rx, ry) = (reach(scale.width), reach(scale.height));
         let window = support.window;
         // Every second pixel of a large region tells enough.
-        let stride = if window.width * window.height > 1500 { 2 } else { 1 };
+        let stride = if window.width * window.height > 1500 {
+            2
+        } else {
+            1
+        };
         let mut best = (f32::INFINITY, 0, 0);
         for dy in -ry..=ry {
             for dx in -rx..=rx {
@@ -108,7 +112,17 @@ impl PlanarFlow {
                 sizes.push(e.abs());
                 let weight = 1.0 / (1.0 + e * e * cut);
                 let along = gx * x + gy * y;
-                let row = [gx, gx * x, gx * y, gy, gy * x, gy * y, along * x, along * y, e];
+                let row = [
+                    gx,
+                    gx * x,
+                    gx * y,
+                    gy,
+                    gy * x,
+                    gy * y,
+                    along * x,
+                    along * y,
+                    e,
+                ];
                 for a in 0..9 {
                     let weighted = weight * row[a];
                     for b in a..9 {
@@ -148,7 +162,12 @@ impl PlanarFlow {
 
     /// Calls with each pixel of the region that can be compared: its place, its residual, and the mean gradient of
     /// both frames times f.
-    pub fn for_each(&self, scale: &Scale, support: &Support, mut each: impl FnMut(f32, f32, [f32; 3])) {
+    pub fn for_each(
+        &self,
+        scale: &Scale,
+        support: &Support,
+        mut each: impl FnMut(f32, f32, [f32; 3]),
+    ) {
         let focal = scale.camera.focal as f32;
         let share = 1.0 / focal;
         let window = support.window;

@@ -102,7 +102,11 @@ impl State {
             (DVec3::ZERO, DVec3::ZERO)
         };
         Pose {
-            rotation: self.rotation.transpose().to_cols_array_2d().map(|row| row.map(|v| v as f32)),
+            rotation: self
+                .rotation
+                .transpose()
+                .to_cols_array_2d()
+                .map(|row| row.map(|v| v as f32)),
             translation: self.translation.to_array().map(|v| v as f32),
             tangent: [b, c].map(|v| v.to_array().map(|v| v as f32)),
         }
@@ -121,7 +125,10 @@ pub(crate) fn turn(omega: DVec3) -> DMat3 {
 
 impl Estimator {
     /// Takes up to `steps` steps. `equations` are those of `state` where `fresh`, and are those of what is left in the end.
-    #[expect(clippy::too_many_arguments, reason = "a problem, its data and its memory")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "a problem, its data and its memory"
+    )]
     pub fn improve(
         &mut self,
         scale: &Scale,
@@ -136,18 +143,42 @@ impl Estimator {
         fresh: bool,
     ) -> Outcome {
         if !fresh {
-            equations.gather(scale, level, support, &state.pose(), &state.surface, sigma, true);
+            equations.gather(
+                scale,
+                level,
+                support,
+                &state.pose(),
+                &state.surface,
+                sigma,
+                true,
+            );
         }
         let mut outcome = self.outcome(equations, state, prior, sigma);
         for _ in 0..steps {
             let before = state.clone();
             let wald = self.step(equations, state, free, prior, sigma);
-            equations.gather(scale, level, support, &state.pose(), &state.surface, sigma, true);
+            equations.gather(
+                scale,
+                level,
+                support,
+                &state.pose(),
+                &state.surface,
+                sigma,
+                true,
+            );
             let mut after = self.outcome(equations, state, prior, sigma);
             after.wald = wald;
             if !(after.energy <= outcome.energy) {
                 *state = before;
-                equations.gather(scale, level, support, &state.pose(), &state.surface, sigma, true);
+                equations.gather(
+                    scale,
+                    level,
+                    support,
+                    &state.pose(),
+                    &state.surface,
+                    sigma,
+                    true,
+                );
                 outcome.wald = wald;
                 break;
             }
@@ -156,7 +187,13 @@ impl Estimator {
         outcome
     }
 
-    fn outcome(&self, equations: &NormalEquations, state: &State, prior: &Prior, sigma: f32) -> Outcome {
+    fn outcome(
+        &self,
+        equations: &NormalEquations,
+        state: &State,
+        prior: &Prior,
+        sigma: f32,
+    ) -> Outcome {
         Outcome {
             energy: equations.cost + surface_energy(&state.surface, prior, sigma),
             data: equations.cost,
@@ -209,7 +246,13 @@ impl Estimator {
     }
 
     /// The band matrix and the right-hand sides.
-    fn assemble(&mut self, equations: &NormalEquations, surface: &Surface, prior: &Prior, variance: f32) {
+    fn assemble(
+        &mut self,
+        equations: &NormalEquations,
+        surface: &Surface,
+        prior: &Prior,
+        variance: f32,
+    ) {
         let nodes = surface.rho.len();
         self.band.clear(nodes, surface.bandwidth());
         self.cross.clear();
@@ -230,7 +273,11 @@ impl Estimator {
         let band = &mut self.band;
         let cross = &mut self.cross;
         for_each_curvature(surface, |nodes, factors, share| {
-            let d: f32 = nodes.iter().zip(factors).map(|(&n, f)| f * surface.rho[n]).sum();
+            let d: f32 = nodes
+                .iter()
+                .zip(factors)
+                .map(|(&n, f)| f * surface.rho[n])
+                .sum();
             let weight = share * curvature_weight(d, surface.spacing, prior);
             for (p, &node) in nodes.iter().enumerate() {
                 for (q, &other) in nodes[..=p].iter().enumerate() {
@@ -247,7 +294,13 @@ impl Estimator {
     }
 
     /// Applies a step of the motion, and the surface's answer to it.
-    fn apply(&mut self, equations: &NormalEquations, state: &mut State, delta: [f64; 5], moves_depth: bool) {
+    fn apply(
+        &mut self,
+        equations: &NormalEquations,
+        state: &mut State,
+        delta: [f64; 5],
+        moves_depth: bool,
+    ) {
         let pose = state.pose();
         let tangent = pose.tangent.map(|b| DVec3::from_array(b.map(f64::from)));
         let shift = tangent[0] * delta[0] + tangent[1] * delta[1];
@@ -315,7 +368,12 @@ fn corners(surface: &Surface, column: usize, row: usize) -> [usize; 4] {
 }
 
 /// Solves for the motions that are free; nothing where the data leave them open.
-fn motion_step(reduced: &[[f64; 6]; 6], full: &[[f64; 6]; 6], free: Free, variance: f64) -> [f64; 5] {
+fn motion_step(
+    reduced: &[[f64; 6]; 6],
+    full: &[[f64; 6]; 6],
+    free: Free,
+    variance: f64,
+) -> [f64; 5] {
     let is_free = |i: usize| match free {
         Free::Depth => false,
         Free::Translation => i < 2,
@@ -376,7 +434,11 @@ pub(crate) fn surface_energy(surface: &Surface, prior: &Prior, sigma: f32) -> f6
     let edge = prior.epsilon as f32 * s;
     let mut sum = 0.0;
     for_each_curvature(surface, |nodes, factors, share| {
-        let d: f32 = nodes.iter().zip(factors).map(|(&n, f)| f * surface.rho[n]).sum();
+        let d: f32 = nodes
+            .iter()
+            .zip(factors)
+            .map(|(&n, f)| f * surface.rho[n])
+            .sum();
         let square = match prior.diffusion {
             Diffusion::Isotropic => d * d,
             Diffusion::Anisotropic => 2.0 * edge * edge * ((1.0 + (d / edge).powi(2)).sqrt() - 1.0),

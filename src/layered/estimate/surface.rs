@@ -107,7 +107,10 @@ impl Surface {
             let (low, high) = (rho(run.column), rho(run.column + 1));
             let step = (high - low) / spacing as f32;
             let first = low + step * (run.offset as f32 + 0.5);
-            for (n, out) in out[run.start..run.start + run.length].iter_mut().enumerate() {
+            for (n, out) in out[run.start..run.start + run.length]
+                .iter_mut()
+                .enumerate()
+            {
                 *out = first + step * n as f32;
             }
         });

@@ -31,10 +31,21 @@ fn cost(e: f32, most: f32) -> f32 {
 }
 
 /// Costs under a rigid motion and a surface; `saturation` where the surface does not reach.
-pub(crate) fn rigid_cost(scale: &Scale, level: usize, state: &State, sigma: f32, out: &mut Grid<f32>) {
+pub(crate) fn rigid_cost(
+    scale: &Scale,
+    level: usize,
+    state: &State,
+    sigma: f32,
+    out: &mut Grid<f32>,
+) {
     let most = saturation(sigma);
     out.data_mut().fill(f32::INFINITY);
-    let Window { left, top, width, height } = inside(&state.surface.window(), level, scale);
+    let Window {
+        left,
+        top,
+        width,
+        height,
+    } = inside(&state.surface.window(), level, scale);
     let (f, cx, cy) = (
         scale.camera.focal as f32,
         scale.camera.cx as f32,
@@ -65,13 +76,28 @@ pub(crate) fn rigid_cost(scale: &Scale, level: usize, state: &State, sigma: f32,
 }
 
 /// GM and shading.
-pub(crate) fn finish(e: &mut Grid<f32>, sigma: f32, spare: &mut Grid<f32>, radius: usize, delta: f32, mix: f32, scale: &Scale, slack: f32) {
+pub(crate) fn finish(
+    e: &mut Grid<f32>,
+    sigma: f32,
+    spare: &mut Grid<f32>,
+    radius: usize,
+    delta: f32,
+    mix: f32,
+    scale: &Scale,
+    slack: f32,
+) {
     let most = saturation(sigma);
     let mut mean = e.map(|v| if v.is_finite() { v } else { 0.0 });
     super::box_blur(&mut mean, radius, spare);
     let [gx, gy] = &scale.gradient;
     let share = slack * slack / (sigma * sigma);
-    for (((e, mean), gx), gy) in e.data_mut().iter_mut().zip(mean.data()).zip(gx.data()).zip(gy.data()) {
+    for (((e, mean), gx), gy) in e
+        .data_mut()
+        .iter_mut()
+        .zip(mean.data())
+        .zip(gx.data())
+        .zip(gy.data())
+    {
         let unit = (1.0 + share * (gx * gx + gy * gy)).sqrt().recip();
         *e = if e.is_nan() {
             LEAVES * most
@@ -80,7 +106,11 @@ pub(crate) fn finish(e: &mut Grid<f32>, sigma: f32, spare: &mut Grid<f32>, radiu
         } else {
             let plain = cost(*e * unit, most);
             let high = cost((*e - mean) * unit, most);
-            if mix > 0.0 { (1.0 - mix) * plain + mix * high } else { plain.min(high + delta * most) }
+            if mix > 0.0 {
+                (1.0 - mix) * plain + mix * high
+            } else {
+                plain.min(high + delta * most)
+            }
         };
     }
 }

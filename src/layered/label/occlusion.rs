@@ -40,7 +40,8 @@ impl Cover {
                     (left, top + 1.0),
                     (left + 1.0, top + 1.0),
                 ] {
-                    if px >= 0.0 && py >= 0.0 && px < scale.width as f32 && py < scale.height as f32 {
+                    if px >= 0.0 && py >= 0.0 && px < scale.width as f32 && py < scale.height as f32
+                    {
                         seen[(px as usize, py as usize)] |= 1 << k;
                     }
                 }
@@ -79,7 +80,12 @@ impl Cover {
 }
 
 /// Calls with every pixel that a surface reaches and the place that it goes to.
-fn for_each_target(scale: &Scale, level: usize, state: &State, mut each: impl FnMut(usize, usize, f32, f32)) {
+fn for_each_target(
+    scale: &Scale,
+    level: usize,
+    state: &State,
+    mut each: impl FnMut(usize, usize, f32, f32),
+) {
     let window = inside(&state.surface.window(), level, scale);
     let (f, cx, cy) = (
         scale.camera.focal as f32,

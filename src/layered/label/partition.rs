@@ -79,7 +79,9 @@ pub(crate) fn box_blur(plane: &mut Grid<f32>, radius: usize, spare: &mut Grid<f3
         let at = |x: isize| row[x.clamp(0, width as isize - 1) as usize];
         let edge = radius.min(width);
         for x in (0..edge).chain(width.saturating_sub(radius).max(edge)..width) {
-            let sum: f32 = (0..=2 * radius).map(|d| at((x + d) as isize - radius as isize)).sum();
+            let sum: f32 = (0..=2 * radius)
+                .map(|d| at((x + d) as isize - radius as isize))
+                .sum();
             out[x] = sum * share;
         }
         if width > 2 * radius {
@@ -116,7 +118,11 @@ mod tests {
             ((x * 12_9898 + y * 78_233 + k * 37_719) % 1009) as f32 / 1009.0
         };
         (0..3)
-            .map(|k| Grid::from_fn(width, height, |x, y| noise(x, y, k) * if x % 20 < 7 * k { 1.5 } else { 0.6 }))
+            .map(|k| {
+                Grid::from_fn(width, height, |x, y| {
+                    noise(x, y, k) * if x % 20 < 7 * k { 1.5 } else { 0.6 }
+                })
+            })
             .collect()
     }
 
@@ -128,13 +134,24 @@ mod tests {
         let mut spare = Grid::new(48, 40, 0.0);
         let mut energy = |labels: &Grid<u8>| {
             pull(labels, &mut pulls, &mut spare);
-            let data: f64 = labels.data().iter().enumerate().map(|(i, &k)| f64::from(costs[usize::from(k)].data()[i])).sum();
+            let data: f64 = labels
+                .data()
+                .iter()
+                .enumerate()
+                .map(|(i, &k)| f64::from(costs[usize::from(k)].data()[i]))
+                .sum();
             data + outline_energy(labels, &pulls, 0.7)
         };
         let before = energy(&labels);
         let mut memory = vec![Grid::new(48, 40, 0.0); 3];
         let mut room = Grid::new(48, 40, 0.0);
-        partition(&costs, &Grid::new(48, 40, 0.7), &mut labels, &mut memory, &mut room);
+        partition(
+            &costs,
+            &Grid::new(48, 40, 0.7),
+            &mut labels,
+            &mut memory,
+            &mut room,
+        );
         assert!(energy(&labels) < before);
     }
 

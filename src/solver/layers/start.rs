@@ -9,8 +9,9 @@
 
 use super::Layers;
 use crate::grid::Grid;
+use crate::init::find_curves;
 use crate::options::Options;
-use crate::start::{self, Look, Patch};
+use crate::start::{self, Patch};
 
 /// Rounds in which motions are proposed: in the first, curves do not know of each other's.
 const PROPOSALS: usize = 3;
@@ -35,11 +36,7 @@ impl Layers {
         if !options.bodies || self.phi.is_empty() {
             return;
         }
-        let Some(look) = Look::at(&self.pair, &self.scales[0].camera) else {
-            return;
-        };
-        let theirs = self.bodies_of(&look);
-        let theirs = theirs.or_else(|| self.bodies_of(&look.parted(&self.phi)?));
+        let theirs = self.bodies_of();
         if let Some(theirs) = theirs {
             let drawn = std::mem::replace(&mut self.phi, theirs);
             self.relabel();
@@ -51,9 +48,9 @@ impl Layers {
     }
 
     /// The body that each curve is drawn on, if each is on one, as level sets.
-    fn bodies_of(&self, look: &Look) -> Option<Vec<Grid<f32>>> {
+    fn bodies_of(&self) -> Option<Vec<Grid<f32>>> {
         let whole = self.scales[0].whole();
-        let shapes = look.bodies().into_iter();
+        let shapes = find_curves(&self.pair, &self.scales[0].camera).into_iter();
         let all: Vec<Grid<f32>> = shapes
             .filter_map(|shape| shape.level_set(whole.width, whole.height, 0).ok())
             .map(|phi| self.at_this_scale(phi))
