@@ -7,10 +7,11 @@
 use glam::{DQuat, DVec3};
 
 use super::epipolar::{MotionModel, Pair, epipolar_motion, median};
+use super::lattice::Lattice;
 use super::matches::Match;
 use super::rotation::rotation_alone;
 use super::sample::{Carrier, Sample};
-use super::segments::Segments;
+use super::segments::{Segments, segments};
 use crate::camera::{Camera, RigidMotion};
 
 /// χ² above which a match is not explained.
@@ -29,7 +30,7 @@ pub const CARRIED: f64 = 0.8;
 const ROUNDS: usize = 2;
 /// Share of a segment's matches that the motion has to explain to be found anew from it.
 const MAINLY: f64 = 0.5;
-/// Share of matches above which a motion is not turned.
+/// Share of matches above which a motion is good enough.
 const PLENTY: f64 = 0.95;
 /// Shifts tried, in pixels.
 const SHIFTS: [f64; 8] = [-6.0, -4.0, -2.0, -1.0, 1.0, 2.0, 4.0, 6.0];
@@ -89,9 +90,25 @@ pub fn background(
             if best.is_none_or(|(count, _)| chosen.len() > count) {
                 best = Some((chosen.len(), motion));
             }
+            if chosen.len() as f64 > PLENTY * samples.len() as f64 {
+                return Some((motion, true));
+            }
         }
     }
     best.map(|(_, motion)| (motion, true))
+}
+
+/// The matches of the segments that the background's motion explains mainly; `None` when it has no translation.
+pub fn scenery(samples: &[Sample], camera: &Camera, size: [usize; 2]) -> Option<Vec<Match>> {
+    let lattice = Lattice::new(samples, size);
+    let everything = vec![true; samples.len()];
+    let whole = || segments(samples, &lattice, &everything);
+    let (motion, translates) = background(samples, whole, camera, size)?;
+    let carrier = Carrier::new(&motion, camera);
+    let segments = whole();
+    let shares = segments.shares(|k| carrier.misfit(&samples[k]) < UNEXPLAINED);
+    let members = segments.members(|s| shares[s] > MAINLY).concat();
+    translates.then(|| members.iter().map(|&k| samples[k].matched).collect())
 }
 
 /// The full motion that explains most of all matches.

@@ -25,6 +25,8 @@ const SMALLEST: f64 = 0.008;
 
 /// Fewest matches of a piece of one.
 const FEW: usize = 12;
+/// Residual of such matches, over the usual one, above which they are thought wrong.
+const ALIKE: f64 = 1.5;
 /// Median χ² of what does not follow the background though its flow continues it.
 const STRONG: f64 = 25.0;
 
@@ -56,8 +58,14 @@ pub fn find_curves(pair: &FramePair, camera: &Camera) -> Vec<Shape> {
     }
     let mut others = segments(&samples, &lattice, &left).members(|_| true);
     if full {
+        let residual = |k: usize| f64::from(samples[k].matched.residual);
+        let usual = median((0..samples.len()).map(residual).collect());
         others.retain(|piece| {
-            piece.len() >= 2 * fewest && median(piece.iter().map(|&k| misfit[k]).collect()) > STRONG
+            let of =
+                |value: &dyn Fn(usize) -> f64| median(piece.iter().map(|&k| value(k)).collect());
+            piece.len() >= 2 * fewest
+                && of(&|k| misfit[k]) > STRONG
+                && of(&residual) < ALIKE * usual
         });
     }
     pieces.extend(others);

@@ -14,7 +14,7 @@
 
 use serde::Serialize;
 
-use super::background::{UNEXPLAINED, whole_motion};
+use super::background::{UNEXPLAINED, scenery, whole_motion};
 use super::sample::{Carrier, Sample, small_samples};
 use crate::camera::Camera;
 use crate::frames::FramePair;
@@ -23,7 +23,7 @@ use crate::frames::FramePair;
 const SHORTEST: f64 = 0.354;
 const LONGEST: f64 = 5.66;
 /// Matches that share one independent observation.
-const SHARED: f64 = 10.0;
+const SHARED: f64 = 20.0;
 /// 2 log of the odds that are asked for, e¹⁰ to one.
 const DECISIVE: f64 = 20.0;
 /// 2 log of the odds between f and the ends of its range.
@@ -48,7 +48,8 @@ pub fn focal_length(pair: &FramePair, camera: &Camera) -> Option<FocalLength> {
     let small = small_samples(pair, camera);
     let side = pair.width().max(pair.height()) as f64;
     let pixel = small.camera.focal / camera.focal;
-    let count = small.samples.len() as f64 / SHARED;
+    let chosen = scenery(&small.samples, &small.camera, small.size)?;
+    let count = chosen.len() as f64 / SHARED;
     let cost = |focal: f64| {
         let camera = Camera {
             focal: focal * pixel,
@@ -79,10 +80,11 @@ pub fn focal_length(pair: &FramePair, camera: &Camera) -> Option<FocalLength> {
     }
     let (focal, best) = least(&tried)?;
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let ends = [tried[0].0, tried[tried.len() - 1].0];
     let likely = |(_, cost): &(f64, f64)| *cost <= best + DOUBTFUL;
     let first = tried.iter().position(likely)?.saturating_sub(1);
     let last = (tried.iter().rposition(likely)? + 1).min(tried.len() - 1);
-    (given - best >= DECISIVE).then_some(FocalLength {
+    (given - best >= DECISIVE && !ends.contains(&focal)).then_some(FocalLength {
         focal,
         least: tried[first].0,
         greatest: tried[last].0,
