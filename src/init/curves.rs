@@ -25,6 +25,8 @@ const SMALLEST: f64 = 0.008;
 
 /// Fewest matches of a piece of one.
 const FEW: usize = 12;
+/// χ² above which a match does not follow a background in translation, whose T and R are less certain.
+const OFF_SCENERY: f64 = 14.0;
 /// Residual of such matches, over the usual one, above which they are thought wrong.
 const ALIKE: f64 = 1.5;
 /// Median χ² of what does not follow the background though its flow continues it.
@@ -45,7 +47,10 @@ pub fn find_curves(pair: &FramePair, camera: &Camera) -> Vec<Shape> {
     };
     let carrier = Carrier::new(&motion, &camera);
     let misfit: Vec<f64> = samples.iter().map(|s| carrier.misfit(s)).collect();
-    let wanted: Vec<bool> = misfit.iter().map(|&m| m > UNEXPLAINED).collect();
+    let wanted: Vec<bool> = misfit
+        .iter()
+        .map(|&m| m > if full { OFF_SCENERY } else { UNEXPLAINED })
+        .collect();
     let fewest = (SMALLEST * lattice.places() as f64) as usize;
     let mut left = wanted.clone();
     let mut pieces = Vec::new();

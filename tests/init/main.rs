@@ -77,7 +77,7 @@ fn a_lone_square_is_found_wherever_it_goes_and_however_light_changes() {
 
 #[test]
 fn what_is_too_small_to_be_told_is_not_found() {
-    assert_eq!(find_curves(&square(5.0, (1.5, 0.0), 1.0), &camera()), []);
+    assert_eq!(find_curves(&square(2.5, (1.5, 0.0), 1.0), &camera()), []);
 }
 
 #[test]
