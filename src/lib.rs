@@ -62,9 +62,7 @@ pub mod file;
 pub mod frames;
 pub mod grid;
 pub mod horn_schunck;
-// Read by the layered solver.
-#[allow(dead_code, unused_imports)]
-mod init;
+pub mod init;
 pub mod interpretation;
 mod layered;
 mod linalg;
@@ -75,7 +73,6 @@ pub mod scene;
 pub mod score;
 pub mod solver;
 mod srgb;
-pub mod start;
 pub mod view;
 pub mod window;
 

@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
+use relievo::init::find_curves;
 use relievo::options::{Options, Preset};
 use relievo::scene::Sequence;
-use relievo::start::automatic;
 use relievo::{FramePair, Shape};
 
 use crate::Failure;
@@ -87,7 +87,7 @@ fn look(sequence: &Sequence, solving: bool) -> Result<Found, Failure> {
     let [first, second] = frames.clone();
     let pair = FramePair::new(first, second)?;
     let start = Instant::now();
-    let curves = automatic(&pair, &truth.camera);
+    let curves = find_curves(&pair, &truth.camera);
     let seconds = start.elapsed().as_secs_f64();
     let wrong = |curves: &[Shape]| -> Result<f64, Failure> {
         let solver = solve(frames, truth.camera, curves, Options::preset(Preset::Best))?;

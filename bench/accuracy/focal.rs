@@ -1,7 +1,7 @@
 //! Which focal length is found, from the true one and from guesses that are far off.
 
 use relievo::FramePair;
-use relievo::start::focal_length;
+use relievo::init::focal_length;
 
 use crate::Failure;
 use crate::cases::Case;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use relievo::file::{flo, pfm, png};
-use relievo::start::focal_length;
+use relievo::init::focal_length;
 use relievo::{Camera, Flow, Frame, FramePair, Grid, Interpretation, RigidMotion, Shape};
 
 use crate::Failure;

@@ -12,7 +12,6 @@ mod render;
 mod scores;
 mod sequence;
 mod solve;
-mod warm;
 
 use std::error::Error;
 use std::io::{BufRead, Write, stdin, stdout};

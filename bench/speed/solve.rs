@@ -14,7 +14,6 @@ use crate::Failure;
 use crate::protocol::{Seconds, Trial};
 use crate::scores::Score;
 use crate::sequence::{Sequence, Truth};
-use crate::warm::WarmStart;
 
 static START: LazyLock<Instant> = LazyLock::new(Instant::now);
 

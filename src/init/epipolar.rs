@@ -56,8 +56,10 @@ pub struct EpipolarMotion {
 
 /// The rays of a match.
 #[derive(Clone, Copy)]
-pub(super) struct Pair {
+pub struct Pair {
+    /// In the first frame.
     pub p: DVec3,
+    /// In the second.
     pub q: DVec3,
 }
 
@@ -289,7 +291,7 @@ fn inverse_depth(t: DVec3, p: DVec3, q: DVec3) -> f64 {
 }
 
 /// The middle value; 0 of none.
-pub(super) fn median(mut values: Vec<f64>) -> f64 {
+pub fn median(mut values: Vec<f64>) -> f64 {
     let middle = values.len() / 2;
     match values.is_empty() {
         true => 0.0,

@@ -24,7 +24,7 @@ const STEPS: [usize; 2] = [5, 3];
 const DIRECTIONS: [usize; 2] = [5, 3];
 /// Candidates within this score of the best are tried again on a finer scale.
 const CLOSE: f64 = 60.0;
-/// A candidate with another direction of T within this score of the best explains the region as well.
+/// A candidate with another direction of T within this score of the best explains the region as well, on a coarse scale.
 const EQUAL: f64 = 10.0;
 /// Cosine of the angle from which a direction of T is another.
 const OTHER: f64 = 0.9;
@@ -189,7 +189,8 @@ fn points_elsewhere(candidate: &Candidate, direction: DVec3) -> bool {
 }
 
 /// Whether, of candidates with the best first, another with another direction of T explains the region as well.
-pub(super) fn ambiguous(candidates: &[Candidate]) -> bool {
+pub(super) fn ambiguous(candidates: &[Candidate], fine: bool) -> bool {
+    let equal = if fine { FINE * EQUAL } else { EQUAL };
     let Some((best, rest)) = candidates.split_first() else {
         return false;
     };
@@ -197,7 +198,7 @@ pub(super) fn ambiguous(candidates: &[Candidate]) -> bool {
     best.model.translates()
         && rest
             .iter()
-            .any(|c| points_elsewhere(c, direction) && c.score < best.score + EQUAL)
+            .any(|c| points_elsewhere(c, direction) && c.score < best.score + equal)
 }
 
 /// The explanation that differs by perspective alone: hollow where the other bulges, and turning the other way.
@@ -280,7 +281,8 @@ mod tests {
     fn only_another_direction_that_fits_as_well_makes_it_ambiguous() {
         use MotionModel::{Full, Still};
         let (x, y) = (DVec3::X, DVec3::Y);
-        let of = |other: Candidate| ambiguous(&distinct(vec![other, candidate(Full, x, 100.0)]));
+        let of =
+            |other: Candidate| ambiguous(&distinct(vec![other, candidate(Full, x, 100.0)]), false);
         assert!(of(candidate(Full, y, 105.0)));
         assert!(of(candidate(Full, -x, 105.0)));
         assert!(!of(candidate(Full, y, 100.0 + 2.0 * EQUAL)));

@@ -9,11 +9,12 @@
 //! ```
 //!
 //! σ is measured at the start of a scale and held, so that energies compare within it. A pass that raises the energy is
-//! taken back and ends the scale. Energies of different scales, or before and after σ is measured, do not compare.
+//! taken back and ends the scale. Energies do not compare between scales, before and after σ is measured, and after the
+//! first pass of the finest scale, when outlines become dearer.
 
 use std::rc::Rc;
 
-use super::estimate::{Estimator, Prior, Surface};
+use super::estimate::{Estimator, PlanarFlow, Prior, State, Surface};
 use super::label::Memory;
 use super::region::Region;
 use super::scale::{Scale, pyramid};
@@ -53,10 +54,10 @@ pub(super) enum Phase {
 }
 
 /// What a pass that raises the energy is taken back to.
-pub(super) struct Before {
-    energy: f64,
+struct Before {
+    energy: Energy,
     labels: Grid<u8>,
-    states: Vec<super::estimate::State>,
+    states: Vec<(State, PlanarFlow)>,
 }
 
 /// Labels, motions and surfaces, and the scale at which they stand.
@@ -85,6 +86,8 @@ pub(crate) struct Layered {
     pub(super) energy: Energy,
     pub(super) weights: Weights,
     before: Option<Before>,
+    /// Whether the last pass was taken back.
+    rejected: bool,
 }
 
 impl Layered {
@@ -121,6 +124,7 @@ impl Layered {
             energy: Energy::default(),
             weights: Weights::default(),
             before: None,
+            rejected: false,
             scales,
         };
         layered.place(&level_sets);
@@ -193,25 +197,31 @@ impl Layered {
         self.fit_surfaces();
     }
 
-    /// Whether the pass has raised the energy; then it is taken back.
-    fn rejected(&mut self) -> bool {
+    /// Takes the pass back if it has raised the energy.
+    fn accept_or_reject(&mut self) {
         let energy = self.energy.total();
-        let worse = self.before.as_ref().is_some_and(|b| energy > b.energy);
-        if worse && let Some(before) = self.before.take() {
+        self.rejected = self
+            .before
+            .as_ref()
+            .is_some_and(|b| energy > b.energy.total());
+        if self.rejected
+            && let Some(before) = self.before.take()
+        {
             self.labels = before.labels;
-            for (region, state) in self.regions.iter_mut().zip(before.states) {
+            for (region, (state, flow)) in self.regions.iter_mut().zip(before.states) {
                 region.state = state;
+                region.flow = flow;
             }
+            self.energy = before.energy;
             self.find_windows();
-            self.energy.data -= energy - before.energy;
         } else {
+            let known = self.regions.iter().map(|r| (r.state.clone(), r.flow));
             self.before = Some(Before {
-                energy,
+                energy: self.energy,
                 labels: self.labels.clone(),
-                states: self.regions.iter().map(|r| r.state.clone()).collect(),
+                states: known.collect(),
             });
         }
-        worse
     }
 
     /// What comes after a pass of the present phase in which so many pixels changed region.
@@ -219,8 +229,10 @@ impl Layered {
         let still = changed <= options.tolerance;
         let alone = self.regions.len() == 1;
         match self.phase {
-            Phase::Planar(done) if done + 1 < PLANAR_ROUNDS && !alone && !(still && done > 1) => {
-                // σ is measured in the second round, and held from then on.
+            Phase::Planar(done)
+                if done + 1 < PLANAR_ROUNDS && !alone && !self.rejected && !(still && done > 1) =>
+            {
+                // σ is measured in the first two rounds, and held from then on.
                 let next = if done < 2 { Next::Another } else { Next::Again };
                 (Phase::Planar(done + 1), next)
             }
@@ -228,10 +240,11 @@ impl Layered {
             Phase::Search => (Phase::Rigid(0), Next::Another),
             Phase::Rigid(done) => {
                 let [least, most] = if self.warm { [1, 2] } else { PASSES };
-                let rejected = self.rejected();
                 let enough = done + 1 >= least && (still || alone);
-                if !rejected && !enough && done + 1 < most {
-                    (Phase::Rigid(done + 1), Next::Again)
+                if !self.rejected && !enough && done + 1 < most {
+                    let dearer = self.level == 0 && done == 0;
+                    let next = if dearer { Next::Another } else { Next::Again };
+                    (Phase::Rigid(done + 1), next)
                 } else if self.level > 0 {
                     self.refine_scale();
                     (Phase::Rigid(0), Next::Another)
@@ -276,8 +289,9 @@ impl Approach for Layered {
         match self.phase {
             Phase::Planar(done) => self.label_planes(done, options),
             Phase::Search | Phase::Rigid(_) => self.label(options),
-            Phase::Refine | Phase::Done => {}
+            Phase::Refine | Phase::Done => return,
         }
+        self.accept_or_reject();
     }
 
     fn end_pass(&mut self, changed: f64, _still: bool, options: &Options) -> Next {

@@ -158,7 +158,7 @@ impl Layered {
             given.extend(alternatives.into_iter().map(over));
             let memory = (&mut self.estimator, &mut region.equations);
             let found = problem.select(given, memory);
-            region.ambiguous = ambiguous(&found);
+            region.ambiguous = ambiguous(&found, true);
             if let Some(best) = found.into_iter().next() {
                 region.model = best.model;
                 region.state = best.state;

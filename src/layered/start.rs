@@ -94,7 +94,7 @@ impl Layered {
             let region = &mut self.regions[k];
             let memory = (&mut self.estimator, &mut region.equations);
             let found = problem.search(&blocks, &flat, select, memory);
-            region.ambiguous = ambiguous(&found);
+            region.ambiguous = ambiguous(&found, false);
             region.fresh = false;
             region.dense = None;
             let mut found = found.into_iter();

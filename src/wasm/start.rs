@@ -6,15 +6,15 @@ use super::solver::camera_of;
 use super::{Frame, Json, write};
 use crate::error::Error;
 use crate::frames::FramePair;
-use crate::start;
+use crate::init;
 
-/// A polygon roughly on each thing that moves by itself, the largest first and four at most, as a
+/// A polygon roughly on each thing that moves by itself, the largest first and as many at most as a
 /// solver takes them; `[]` where one motion explains both frames. `camera` is that of a solver.
 #[wasm_bindgen(js_name = findCurves)]
 pub fn find_curves(first: &Frame, second: &Frame, camera: &Json) -> Result<String, Error> {
     let pair = FramePair::new(first.0.clone(), second.0.clone())?;
     let camera = camera_of(&pair, camera)?;
-    Ok(write(&start::automatic(&pair, &camera)))
+    Ok(write(&init::find_curves(&pair, &camera)))
 }
 
 /// The focal length at which rigid motions explain the frames best, `{"focal", "least", "greatest"}` in
@@ -23,5 +23,5 @@ pub fn find_curves(first: &Frame, second: &Frame, camera: &Json) -> Result<Strin
 pub fn find_focal(first: &Frame, second: &Frame, camera: &Json) -> Result<String, Error> {
     let pair = FramePair::new(first.0.clone(), second.0.clone())?;
     let camera = camera_of(&pair, camera)?;
-    Ok(write(&start::focal_length(&pair, &camera)))
+    Ok(write(&init::focal_length(&pair, &camera)))
 }

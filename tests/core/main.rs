@@ -8,13 +8,11 @@ mod support;
 #[path = "../../src/scene/dice.rs"]
 mod dice;
 
-mod automatic;
 mod camera;
 mod constraint;
 mod derivatives;
 mod drawn;
 mod files;
-mod focal;
 mod frames;
 mod horn_schunck;
 mod lighting;

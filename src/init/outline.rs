@@ -5,7 +5,7 @@
 //! off by more than [`OFF`] (Ramer 1972; Douglas and Peucker 1973). Where a region goes on beyond the
 //! frame, the polygon runs along the frame's border.
 
-use super::lattice::Lattice;
+use super::block_search::SPACING;
 use crate::curves::contours;
 use crate::grid::Grid;
 
@@ -24,55 +24,36 @@ pub(super) struct Outline {
     pub share: f64,
 }
 
-/// The outlines of where `margin`, a number for each patch, is above 0, for patches matched on a picture
-/// `small` = (width, height) of a `frame`.
-pub(super) fn outlines(
-    lattice: &Lattice,
-    margin: &[f64],
-    small: (usize, usize),
-    frame: (usize, usize),
-) -> Vec<Outline> {
-    let mut field = Grid::new(lattice.patch.width(), lattice.patch.height(), 0.0f32);
-    for (&at, &m) in lattice.places.iter().zip(margin) {
-        field[at] = m as f32;
-    }
-    let [columns, rows] = &lattice.pixels;
-    let level_set = Grid::from_fn(small.0, small.1, |x, y| {
-        field.bilinear(place(columns, x as f32), place(rows, y as f32))
+/// The outlines of where `field`, a number for each place of the lattice of a frame of size `small`, is above 0, in
+/// pixels of a `frame` of another size.
+pub(super) fn outlines(field: &Grid<f32>, small: [usize; 2], frame: [usize; 2]) -> Vec<Outline> {
+    let place = |at: usize| (at as f32 - (SPACING / 2) as f32) / SPACING as f32;
+    let level_set = Grid::from_fn(small[0], small[1], |x, y| {
+        field.bilinear(place(x), place(y))
     });
-    let grow = |value: f32, small: usize, frame: usize| {
-        let factor = frame as f64 / small as f64;
+    let grow = |value: f32, k: usize| {
+        let factor = frame[k] as f64 / small[k] as f64;
         let at = (f64::from(value) + 0.5) * factor - 0.5;
-        (10.0 * at.clamp(0.0, (frame - 1) as f64)).round() / 10.0
+        (10.0 * at.clamp(0.0, (frame[k] - 1) as f64)).round() / 10.0
     };
-    let (width, height) = frame;
+    let [width, height] = frame;
     let whole = (width * height) as f64;
     let off = OFF * width.max(height) as f64;
     contours(&level_set, 1)
         .into_iter()
         .map(|contour| {
-            let points = contour
+            let points: Vec<[f64; 2]> = contour
                 .points
                 .iter()
-                .map(|&[x, y]| [grow(x, small.0, width), grow(y, small.1, height)]);
-            let corners = simplified(&points.collect::<Vec<_>>(), off);
+                .map(|&[x, y]| [grow(x, 0), grow(y, 1)])
+                .collect();
+            let corners = simplified(&points, off);
             let share = area(&corners) / whole;
             Outline { corners, share }
         })
         // Holes have areas below 0.
         .filter(|outline| outline.share >= SMALLEST && compact(&outline.corners))
         .collect()
-}
-
-/// Where a pixel lies between columns (or rows) of the lattice, in places.
-fn place(pixels: &[f32], at: f32) -> f32 {
-    let next = pixels
-        .partition_point(|p| *p < at)
-        .clamp(1, (pixels.len() - 1).max(1));
-    let (Some(a), Some(b)) = (pixels.get(next - 1), pixels.get(next)) else {
-        return 0.0;
-    };
-    (next - 1) as f32 + ((at - a) / (b - a)).clamp(0.0, 1.0)
 }
 
 /// A closed line without the points that are within `off` of what is left.

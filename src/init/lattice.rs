@@ -1,0 +1,68 @@
+//! Which match lies at which place of the 4-px lattice.
+
+use super::block_search::SPACING;
+use super::sample::Sample;
+use crate::grid::Grid;
+
+/// No match.
+const NONE: u32 = u32::MAX;
+
+/// Places of a frame, four pixels apart, and the matches there.
+pub struct Lattice {
+    index: Grid<u32>,
+}
+
+impl Lattice {
+    /// Of matches on a frame of `size`.
+    pub fn new(samples: &[Sample], size: [usize; 2]) -> Self {
+        let [across, down] = size.map(|side| side.div_ceil(SPACING));
+        let mut index = Grid::new(across, down, NONE);
+        for (k, sample) in samples.iter().enumerate() {
+            index[place(sample)] = k as u32;
+        }
+        Self { index }
+    }
+
+    /// Columns and rows.
+    pub fn size(&self) -> [usize; 2] {
+        [self.index.width(), self.index.height()]
+    }
+
+    /// How many places there are.
+    pub fn places(&self) -> usize {
+        self.index.len()
+    }
+
+    /// The match at a place.
+    pub fn at(&self, place: (usize, usize)) -> Option<usize> {
+        let k = self.index[place];
+        (k != NONE).then_some(k as usize)
+    }
+
+    /// The matches within `reach` places of `sample`, itself left out.
+    pub fn around(&self, sample: &Sample, reach: isize) -> impl Iterator<Item = usize> {
+        self.within(place(sample), reach)
+            .filter_map(|(other, _)| self.at(other))
+    }
+
+    /// The places within `reach` of one, itself left out, and how far they are, squared.
+    pub fn within(
+        &self,
+        (i, j): (usize, usize),
+        reach: isize,
+    ) -> impl Iterator<Item = ((usize, usize), isize)> + use<> {
+        let [across, down] = self.size().map(|n| n as isize);
+        let offsets = (-reach..=reach).flat_map(move |b| (-reach..=reach).map(move |a| (a, b)));
+        offsets.filter_map(move |(a, b)| {
+            let (x, y) = (i as isize + a, j as isize + b);
+            let on = (a, b) != (0, 0) && x >= 0 && y >= 0 && x < across && y < down;
+            on.then_some(((x as usize, y as usize), a * a + b * b))
+        })
+    }
+}
+
+/// The place of a match.
+pub fn place(sample: &Sample) -> (usize, usize) {
+    let [x, y] = sample.matched.at;
+    (x as usize / SPACING, y as usize / SPACING)
+}
