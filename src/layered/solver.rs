@@ -230,7 +230,7 @@ impl Layered {
         let alone = self.regions.len() == 1;
         match self.phase {
             Phase::Planar(done)
-                if done + 1 < PLANAR_ROUNDS && !alone && !self.rejected && !(still && done > 1) =>
+                if done + 1 < PLANAR_ROUNDS && !alone && !self.rejected && (done < 2 || !still) =>
             {
                 // σ is measured in the first two rounds, and held from then on.
                 let next = if done < 2 { Next::Another } else { Next::Again };

@@ -152,7 +152,9 @@ impl Estimator {
             self.step(equations, state, free, prior, sigma);
             equations.gather(problem, state);
             let after = outcome_of(equations, state, prior, sigma);
-            if !(after.energy <= outcome.energy) {
+            // Not a number is no gain either.
+            let gained = after.energy <= outcome.energy;
+            if !gained {
                 state.clone_from(&self.before);
                 equations.gather(problem, state);
                 break;

@@ -167,7 +167,7 @@ mod tests {
             let mut labels = Grid::from_fn(60, 40, |x, _| u8::from(x >= 24));
             let before = memory.energy(10.0, &labels);
             memory.partition(10.0, anew, &mut labels);
-            assert!(wrong(&labels) < 40, "{anew}: {} wrong", wrong(&labels));
+            assert!(wrong(&labels) < 60, "{anew}: {} wrong", wrong(&labels));
             let after = memory.energy(10.0, &labels);
             assert!(after[0] + after[1] < before[0] + before[1]);
         }
