@@ -21,7 +21,7 @@ use crate::camera::Camera;
 use crate::curves::{Contour, Shape, contours};
 use crate::energy::Energy;
 use crate::error::Error;
-use crate::frames::{Frame, FramePair, MAX_SIDE};
+use crate::frames::{Frame, FramePair};
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 use crate::layered::Layered;
@@ -44,7 +44,7 @@ pub struct Solver {
 /// Pixels that `best` holds in the 4 GiB of WebAssembly, at 250 bytes a pixel with four regions. Without bound where
 /// memory is not.
 const MOST_PIXELS: Option<usize> = if usize::BITS == 32 {
-    Some(MAX_SIDE * MAX_SIDE)
+    Some(16_000_000)
 } else {
     None
 };
