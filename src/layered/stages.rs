@@ -4,7 +4,7 @@
 //! depth rough, strong ones alone turn T, since smoothness prefers the T that needs the least relief.
 
 use super::estimate::{Free, State, Support, surface_energy};
-use super::label::{LENGTH_OF_PULL, Occlusion, rigid_residual};
+use super::label::{LENGTH_OF_PULL, Occlusion, drop_small_components, rigid_residual};
 use super::models::{Problem, ambiguous, free};
 use super::solver::{Layered, Phase};
 use crate::motion_model::MotionModel;
@@ -233,6 +233,9 @@ impl Layered {
         if self.regions.len() > 1 {
             self.memory
                 .partition(beta, pull.is_some() && self.level > 0, &mut self.labels);
+            if pull.is_some() && self.level == 0 {
+                drop_small_components(&mut self.labels);
+            }
             let [data, length] = self.memory.energy(beta, &self.labels);
             (self.energy.data, self.energy.length) = (data, length);
         } else if pull.is_none() {

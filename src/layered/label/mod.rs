@@ -1,10 +1,12 @@
 //! Stage 2 of a scale: which region each pixel belongs to.
 
+mod components;
 mod data_cost;
 mod memory;
 mod occlusion;
 mod partition;
 
+pub(super) use components::drop_small_components;
 pub(super) use data_cost::{planar_cost, rigid_residual, saturation};
 pub(super) use memory::Memory;
 pub(super) use occlusion::Occlusion;
