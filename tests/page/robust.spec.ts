@@ -86,22 +86,6 @@ test("a hang can be cancelled, even with a focal length that no camera has", asy
   await runPasses(page, 3);
 });
 
-test("a core that cannot be loaded again can be once the line is back", async ({ page }) => {
-  await sabotage(page, "for (;;) {}");
-  await open(page);
-  await page.getByRole("button", { name: "Run" }).click();
-  await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
-  await page.route(/\.wasm$/, (route) => route.abort());
-  await page.getByRole("button", { name: "Cancel" }).click();
-  await expect(page.locator("#message")).toContainText("core cannot be loaded", {
-    timeout: PATIENCE,
-  });
-  await page.unroute(/\.wasm$/);
-  await page.getByRole("button", { name: "Run" }).click();
-  await until(page, (state) => state.busy === null && state.report?.iterations === 0);
-  await runPasses(page, 2);
-});
-
 test("a core that cannot be loaded is said", async ({ page }) => {
   await page.route(/\.wasm$/, (route) => route.fulfill({ status: 404, body: "gone" }));
   await page.goto("./");
