@@ -6,9 +6,11 @@
 //!
 //! The least score wins: of explanations that fit equally the one with fewer numbers and the flatter relief. Prices are
 //! those at which truly still, turning and translating regions of random scenes are told apart; they are higher than
-//! Schwarz's criterion, since smoothing leaves the noise of neighbouring pixels alike.
+//! Schwarz's criterion, since smoothing leaves the noise of neighbouring pixels alike. A turn on top of a translation can
+//! always explain a share of the shadows and wrong labels that no rigid motion explains: it has to lower E by
+//! [`TURN`] of itself.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::estimate::{
     Blocks, Estimator, Free, NormalEquations, Outcome, Prior, State, Support, Surface, turn,
@@ -30,6 +32,8 @@ const EQUAL: f64 = 10.0;
 const OTHER: f64 = 0.9;
 /// Factor of prices on the scale where a model is selected: more pixels tell more.
 const FINE: f64 = 6.0;
+/// Share of E that a turn on top of a translation has to explain.
+const TURN: f64 = 0.04;
 
 /// An explanation of a region.
 pub(super) struct Candidate {
@@ -74,7 +78,6 @@ impl Problem<'_> {
         model: MotionModel,
         mut state: State,
         steps: usize,
-        price_factor: f64,
         (estimator, equations): (&mut Estimator, &mut NormalEquations),
     ) -> Candidate {
         let steps = if model == MotionModel::Still {
@@ -90,7 +93,7 @@ impl Problem<'_> {
         };
         let variance = f64::from(self.sigma * self.sigma);
         Candidate {
-            score: outcome.energy / variance + RELIEF * relief + price_factor * price(model),
+            score: outcome.energy / variance + RELIEF * relief,
             model,
             state,
             outcome,
@@ -110,7 +113,9 @@ impl Problem<'_> {
         let still = State::still(flat.clone());
         let mut found = Vec::new();
         let mut start = |model, state: State, found: &mut Vec<Candidate>| {
-            found.push(self.try_out(model, state, STEPS[0], 1.0, (estimator, equations)));
+            let mut tried = self.try_out(model, state, STEPS[0], (estimator, equations));
+            tried.score += price(model);
+            found.push(tried);
         };
         if select {
             start(MotionModel::Still, still.clone(), &mut found);
@@ -149,17 +154,33 @@ impl Problem<'_> {
         distinct(found)
     }
 
-    /// The explanations given, the best first, after a few more steps of all but the first.
+    /// The explanations given, the best first, after a few more steps of all but the first; with them a translation and a
+    /// mirror image, where a full motion comes first that has none.
     pub fn select(
         &self,
-        given: Vec<(MotionModel, State)>,
+        mut given: Vec<(MotionModel, State)>,
         (estimator, equations): (&mut Estimator, &mut NormalEquations),
     ) -> Vec<Candidate> {
+        if let Some((MotionModel::Full, own)) = given.first().cloned() {
+            if given.iter().all(|(m, _)| *m != MotionModel::Translation) {
+                given.push((MotionModel::Translation, unturned(&own)));
+            }
+            given.push((MotionModel::Full, mirrored(&own)));
+        }
         let tried = given.into_iter().enumerate().map(|(n, (model, state))| {
             let steps = if n == 0 { 0 } else { STEPS[1] };
-            self.try_out(model, state, steps, FINE, (estimator, equations))
+            self.try_out(model, state, steps, (&mut *estimator, &mut *equations))
         });
-        distinct(tried.collect())
+        let mut tried: Vec<Candidate> = tried.collect();
+        let least = (tried.iter().map(|c| c.outcome.energy)).fold(f64::INFINITY, f64::min);
+        let turn = TURN * least / f64::from(self.sigma * self.sigma);
+        for candidate in &mut tried {
+            candidate.score += match candidate.model {
+                MotionModel::Full => FINE * price(MotionModel::Translation) + turn,
+                model => FINE * price(model),
+            };
+        }
+        distinct(tried)
     }
 }
 
@@ -199,6 +220,18 @@ pub(super) fn ambiguous(candidates: &[Candidate], fine: bool) -> bool {
         && rest
             .iter()
             .any(|c| points_elsewhere(c, direction) && c.score < best.score + equal)
+}
+
+/// A flat surface that slides where it turned.
+fn unturned(state: &State) -> State {
+    let (t, w) = (state.translation, state.omega());
+    let mut surface = state.surface.clone();
+    surface.rho.fill(1.0);
+    State {
+        translation: DVec3::new(t.x + w.y, t.y - w.x, t.z),
+        rotation: DMat3::IDENTITY,
+        surface,
+    }
 }
 
 /// The explanation that differs by perspective alone: hollow where the other bulges, and turning the other way.
