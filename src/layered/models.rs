@@ -6,9 +6,9 @@
 //!
 //! The least score wins: of explanations that fit equally the one with fewer numbers and the flatter relief. Prices are
 //! those at which truly still, turning and translating regions of random scenes are told apart; they are higher than
-//! Schwarz's criterion, since smoothing leaves the noise of neighbouring pixels alike. A turn on top of a translation can
-//! always explain a share of the shadows and wrong labels that no rigid motion explains: it has to lower E by
-//! [`TURN`] of itself.
+//! Schwarz's criterion, since smoothing leaves the noise of neighbouring pixels alike. What no rigid motion explains, shadows
+//! and wrong labels, is explained in part by one that is free enough: E has to differ by [`SYSTEMATIC`] of itself for a
+//! turn on top of a translation to be taken, or for another direction of T to be ruled out.
 
 use glam::{DMat3, DVec3};
 
@@ -32,8 +32,8 @@ const EQUAL: f64 = 10.0;
 const OTHER: f64 = 0.9;
 /// Factor of prices on the scale where a model is selected: more pixels tell more.
 const FINE: f64 = 6.0;
-/// Share of E that a turn on top of a translation has to explain.
-const TURN: f64 = 0.04;
+/// Share of E by which explanations may differ for what none of them explains, on the scale where a model is selected.
+const SYSTEMATIC: f64 = 0.04;
 
 /// An explanation of a region.
 pub(super) struct Candidate {
@@ -151,18 +151,33 @@ impl Problem<'_> {
                 start(model, mirror, &mut found);
             }
         }
-        distinct(found)
+        distinct(found, CLOSE)
+    }
+
+    /// Whether what [`Self::search`] found has another explanation that fits as well.
+    pub fn is_ambiguous(&self, candidates: &[Candidate]) -> bool {
+        ambiguous(candidates, EQUAL)
+    }
+
+    /// The same of what [`Self::select`] left.
+    pub fn stays_ambiguous(&self, candidates: &[Candidate]) -> bool {
+        let energy = candidates.first().map_or(0.0, |c| c.outcome.energy);
+        ambiguous(
+            candidates,
+            SYSTEMATIC * energy / f64::from(self.sigma * self.sigma),
+        )
     }
 
     /// The explanations given, the best first, after a few more steps of all but the first; with them a translation and a
-    /// mirror image, where a full motion comes first that has none.
+    /// mirror image, where a full motion comes first that has none; no translation unless the model is to be selected.
     pub fn select(
         &self,
         mut given: Vec<(MotionModel, State)>,
+        select: bool,
         (estimator, equations): (&mut Estimator, &mut NormalEquations),
     ) -> Vec<Candidate> {
         if let Some((MotionModel::Full, own)) = given.first().cloned() {
-            if given.iter().all(|(m, _)| *m != MotionModel::Translation) {
+            if select && given.iter().all(|(m, _)| *m != MotionModel::Translation) {
                 given.push((MotionModel::Translation, unturned(&own)));
             }
             given.push((MotionModel::Full, mirrored(&own)));
@@ -173,24 +188,24 @@ impl Problem<'_> {
         });
         let mut tried: Vec<Candidate> = tried.collect();
         let least = (tried.iter().map(|c| c.outcome.energy)).fold(f64::INFINITY, f64::min);
-        let turn = TURN * least / f64::from(self.sigma * self.sigma);
+        let turn = SYSTEMATIC * least / f64::from(self.sigma * self.sigma);
         for candidate in &mut tried {
             candidate.score += match candidate.model {
                 MotionModel::Full => FINE * price(MotionModel::Translation) + turn,
                 model => FINE * price(model),
             };
         }
-        distinct(tried)
+        distinct(tried, turn)
     }
 }
 
 /// The best first; of each model only the best, and the best whose T points elsewhere; none that is far off.
-fn distinct(mut found: Vec<Candidate>) -> Vec<Candidate> {
+fn distinct(mut found: Vec<Candidate>, close: f64) -> Vec<Candidate> {
     found.sort_by(|a, b| a.score.total_cmp(&b.score));
     let Some(best) = found.first() else {
         return found;
     };
-    let (limit, direction) = (best.score + CLOSE, best.state.translation);
+    let (limit, direction) = (best.score + close, best.state.translation);
     let mut kept: Vec<Candidate> = Vec::new();
     let mut elsewhere = false;
     for candidate in found {
@@ -209,9 +224,9 @@ fn points_elsewhere(candidate: &Candidate, direction: DVec3) -> bool {
     candidate.model.translates() && own.dot(direction.normalize_or_zero()) < OTHER
 }
 
-/// Whether, of candidates with the best first, another with another direction of T explains the region as well.
-pub(super) fn ambiguous(candidates: &[Candidate], fine: bool) -> bool {
-    let equal = if fine { FINE * EQUAL } else { EQUAL };
+/// Whether, of candidates with the best first, another with another direction of T explains the region as well: its
+/// score is less than `equal` more.
+fn ambiguous(candidates: &[Candidate], equal: f64) -> bool {
     let Some((best, rest)) = candidates.split_first() else {
         return false;
     };
@@ -314,19 +329,26 @@ mod tests {
     fn only_another_direction_that_fits_as_well_makes_it_ambiguous() {
         use MotionModel::{Full, Still};
         let (x, y) = (DVec3::X, DVec3::Y);
-        let of =
-            |other: Candidate| ambiguous(&distinct(vec![other, candidate(Full, x, 100.0)]), false);
+        let of = |other: Candidate| {
+            ambiguous(
+                &distinct(vec![other, candidate(Full, x, 100.0)], CLOSE),
+                EQUAL,
+            )
+        };
         assert!(of(candidate(Full, y, 105.0)));
         assert!(of(candidate(Full, -x, 105.0)));
         assert!(!of(candidate(Full, y, 100.0 + 2.0 * EQUAL)));
         assert!(!of(candidate(Full, x + 0.1 * y, 105.0)));
         assert!(!of(candidate(Still, DVec3::ZERO, 105.0)));
-        let kept = distinct(vec![
-            candidate(Full, y, 100.0 + 2.0 * CLOSE),
-            candidate(Full, x, 100.0),
-            candidate(Still, DVec3::ZERO, 110.0),
-            candidate(Still, DVec3::ZERO, 120.0),
-        ]);
+        let kept = distinct(
+            vec![
+                candidate(Full, y, 100.0 + 2.0 * CLOSE),
+                candidate(Full, x, 100.0),
+                candidate(Still, DVec3::ZERO, 110.0),
+                candidate(Still, DVec3::ZERO, 120.0),
+            ],
+            CLOSE,
+        );
         let scores: Vec<f64> = kept.iter().map(|c| c.score).collect();
         assert_eq!(scores, [100.0, 110.0]);
     }

@@ -5,7 +5,7 @@
 
 use super::estimate::{Free, State, Support, surface_energy};
 use super::label::{LENGTH_OF_PULL, Occlusion, drop_small_components, rigid_residual};
-use super::models::{Problem, ambiguous, free};
+use super::models::{Problem, free};
 use super::solver::{Layered, Phase};
 use crate::motion_model::MotionModel;
 use crate::options::Options;
@@ -157,8 +157,8 @@ impl Layered {
             let mut given = vec![(region.model, region.state.clone())];
             given.extend(alternatives.into_iter().map(over));
             let memory = (&mut self.estimator, &mut region.equations);
-            let found = problem.select(given, memory);
-            region.ambiguous = ambiguous(&found, true);
+            let found = problem.select(given, options.model_selection, memory);
+            region.ambiguous = problem.stays_ambiguous(&found);
             if let Some(best) = found.into_iter().next() {
                 region.model = best.model;
                 region.state = best.state;

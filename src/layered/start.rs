@@ -5,7 +5,7 @@
 
 use super::estimate::{Blocks, Degree, PlanarFlow, Support, Surface};
 use super::label::{coarsened, planar_cost};
-use super::models::{Problem, ambiguous};
+use super::models::Problem;
 use super::solver::Layered;
 use crate::grid::Grid;
 use crate::options::Options;
@@ -94,7 +94,7 @@ impl Layered {
             let region = &mut self.regions[k];
             let memory = (&mut self.estimator, &mut region.equations);
             let found = problem.search(&blocks, &flat, select, memory);
-            region.ambiguous = ambiguous(&found, false);
+            region.ambiguous = problem.is_ambiguous(&found);
             region.fresh = false;
             region.dense = None;
             let mut found = found.into_iter();

@@ -183,6 +183,36 @@ fn nothing_is_sure_of_a_mirror_image() {
 }
 
 #[test]
+fn nothing_is_sure_of_a_mirror_image_through_a_long_lens() {
+    mirror_images(800.0);
+}
+
+/// Of small regions of random scenes, few show their relief.
+#[cfg(not(target_arch = "wasm32"))]
+#[test]
+fn nothing_is_sure_of_what_is_worse_than_flat() {
+    for seed in 31..41 {
+        let sequence = scene::variant("crowd", seed, 0.0, 4.0, SIZE[0], SIZE[1]).unwrap();
+        let solver = solved(&sequence);
+        let (found, scores) = (solver.interpretation(), scores(&solver, &sequence));
+        for k in 0..sequence.truth.regions() {
+            let labels = sequence.truth.labels.data().iter();
+            let own = labels
+                .zip(found.confidence.data())
+                .filter(|(l, _)| usize::from(**l) == k);
+            let (mut sure, mut all) = (0, 0);
+            own.for_each(|(_, c)| (sure, all) = (sure + usize::from(*c > 0.5), all + 1));
+            if let (Some(own), Some(flat)) = (scores.depth_error[k], scores.flat_depth_error[k]) {
+                assert!(
+                    own < flat || 2 * sure < all,
+                    "{seed}, {k}: {own}, flat {flat}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn brightness_has_no_unit() {
     let sequence = render("blocks");
     let dark = changed(sequence.clone(), |_, _, v| 0.5 * v);
