@@ -1,16 +1,21 @@
 //! Stage 3: depth pixel by pixel, for regions whose depth has steps.
 //!
 //! A surface over control points cannot step. Where a region leaves many of its pixels unexplained ([`UNEXPLAINED`]),
-//! matches give its motion anew, a plane sweep its depth, and both are refined (`refine/`). The result is taken if its mean
-//! cost over the region is less than [`GAIN`] of the surface's.
+//! matches give its motion anew, a plane sweep its depth, and both are refined (`refine/`). They are taken if they cost less
+//! than [`GAIN`] of what the surface does, in the mean over the region. Often it was the motion that was wrong and not the
+//! surface: a surface through the depths found is estimated anew under the motion found, and stays unless depth pixel by
+//! pixel still costs less than [`GAIN`] of it, or the two are more than a pixel apart over much of the region ([`APART`]).
 
-use super::estimate::CUT;
+use super::estimate::{CUT, State, Surface};
 use super::label::saturation;
-use super::refine::{match_range, refine, sweep};
+use super::refine::{Refined, match_range, refine, sweep};
 use super::solver::Layered;
+use super::stages::STIFFNESS;
 use crate::camera::RigidMotion;
+use crate::grid::Grid;
 use crate::init::{epipolar_motion, matches};
 use crate::motion_model::MotionModel;
+use crate::options::Options;
 use crate::window::Window;
 
 /// Share of a region's pixels that a surface may leave unexplained, times the number of regions, and the share of the
@@ -20,6 +25,10 @@ const UNEXPLAINED: [f64; 2] = [0.01, 0.5];
 const FEWEST: usize = 2000;
 /// What the mean cost must fall to.
 const GAIN: f64 = 0.87;
+/// Share of pixels from which on a surface that is more than a pixel off has lost its way.
+const APART: f64 = 0.25;
+/// Gauss–Newton steps of the surface under the motion found.
+const STEPS: usize = 4;
 
 impl Layered {
     /// Whether some region wants depth pixel by pixel.
@@ -44,15 +53,15 @@ impl Layered {
     }
 
     /// Looks for depth anew where it is wanted.
-    pub(super) fn refine_discontinuities(&mut self) {
+    pub(super) fn refine_discontinuities(&mut self, options: &Options) {
         let wanted: Vec<usize> = (0..self.regions.len())
             .filter(|&k| self.is_unexplained(k))
             .collect();
         // Not in each other's light: matches and the sweep compare frames less their local mean.
-        let frames = [&self.pair.first().grey, &self.pair.second().grey];
+        let pair = self.pair.clone();
+        let frames = [&pair.first().grey, &pair.second().grey];
         let all = matches(frames[0], frames[1]);
         let camera = self.scales[0].camera;
-        let mut adopted = Vec::new();
         for k in wanted {
             let support = self.labels.map(|l| usize::from(l) == k);
             let own: Vec<_> = (all.iter().copied())
@@ -66,24 +75,62 @@ impl Layered {
             };
             let swept = sweep(frames, &camera, &found.motion, &support, range);
             let refined = refine(frames, &camera, &swept.motion, &support, swept.rho);
-            let surface = &self.regions[k].state.surface;
-            let before = self.mean_cost(k, &self.regions[k].state.motion(), |x, y| {
-                surface.at(x as f32, y as f32)
-            });
+            let before = self.surface_cost(k);
             let after = self.mean_cost(k, &refined.motion, |x, y| refined.rho[(x, y)]);
             if after < GAIN * before {
-                adopted.push((k, refined));
+                self.adopt(k, refined, after, options);
             }
         }
-        for (k, refined) in adopted {
+    }
+
+    /// Takes the motion of `refined`, whose cost is `cost`, with a surface or with depth pixel by pixel.
+    fn adopt(&mut self, k: usize, refined: Refined, cost: f64, options: &Options) {
+        let spacing = self.spacing();
+        let prior = self.prior(STIFFNESS[0], self.sigma, options);
+        let region = &mut self.regions[k];
+        region.model = MotionModel::Full;
+        region.ambiguous = false;
+        let pixels = State {
+            translation: refined.motion.translation,
+            rotation: refined.motion.matrix(),
+            surface: Surface::through(spacing, &refined.rho),
+        };
+        region.state = pixels.clone();
+        region.fresh = false;
+        self.improve_region(k, prior, STEPS, true);
+        if cost < GAIN * self.surface_cost(k) || self.share_apart(k, &pixels, &refined.rho) > APART
+        {
             let region = &mut self.regions[k];
-            region.state.translation = refined.motion.translation;
-            region.state.rotation = refined.motion.matrix();
-            region.model = MotionModel::Full;
-            region.ambiguous = false;
+            region.state = pixels;
             region.dense = Some(refined.rho);
             region.fresh = false;
         }
+    }
+
+    /// Share of the pixels of region k that its surface moves by more than a pixel from where `other` moves them with `rho`.
+    fn share_apart(&self, k: usize, other: &State, rho: &Grid<f32>) -> f64 {
+        let scale = &self.scales[0];
+        let own = &self.regions[k].state;
+        let targets = [own, other].map(|state| state.pose().target(scale));
+        let (mut all, mut apart) = (0usize, 0usize);
+        for y in 0..scale.height {
+            for x in 0..scale.width {
+                if usize::from(self.labels[(x, y)]) != k {
+                    continue;
+                }
+                let (a, b) = targets[0].of(x, y, own.surface.at(x as f32, y as f32));
+                let (c, d) = targets[1].of(x, y, rho[(x, y)]);
+                all += 1;
+                apart += usize::from((a - c).hypot(b - d) > 1.0);
+            }
+        }
+        apart as f64 / all.max(1) as f64
+    }
+
+    fn surface_cost(&self, k: usize) -> f64 {
+        let state = &self.regions[k].state;
+        let surface = &state.surface;
+        self.mean_cost(k, &state.motion(), |x, y| surface.at(x as f32, y as f32))
     }
 
     /// Mean of c(e) over the pixels of region k, grey levels²; what leaves the frame counts as unexplained.

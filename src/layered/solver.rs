@@ -281,7 +281,7 @@ impl Approach for Layered {
         match self.phase {
             Phase::Planar(_) | Phase::Done => {}
             Phase::Search | Phase::Rigid(_) => self.estimate_depth(options),
-            Phase::Refine => self.refine_discontinuities(),
+            Phase::Refine => self.refine_discontinuities(options),
         }
     }
 

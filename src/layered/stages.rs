@@ -3,7 +3,7 @@
 //! Motion is found under weak charges for curvature and held, then the surface under strong ones: weak ones alone leave
 //! depth rough, strong ones alone turn T, since smoothness prefers the T that needs the least relief.
 
-use super::estimate::{Free, State, Support, surface_energy};
+use super::estimate::{Free, Prior, State, Support, surface_energy};
 use super::label::{LENGTH_OF_PULL, Occlusion, drop_small_components, rigid_residual};
 use super::models::{Problem, free};
 use super::solver::{Layered, Phase};
@@ -13,7 +13,7 @@ use crate::solver::Weights;
 use crate::window::Window;
 
 /// What curvature is charged while motion is found, and for depth, in variances of the residual, px².
-const STIFFNESS: [f64; 2] = [1e5, 1e6];
+pub(super) const STIFFNESS: [f64; 2] = [1e5, 1e6];
 /// Gauss–Newton steps of motion with depth, and of depth alone.
 const STEPS: [usize; 2] = [2, 2];
 /// Least σ in grey levels: frames of 8 bits are not known better, smoothed as they are.
@@ -97,40 +97,41 @@ impl Layered {
 
     fn improve(&mut self, stiffness: f64, steps: usize, moving: bool, options: &Options) {
         let prior = self.prior(stiffness, self.sigma, options);
-        for (k, region) in self.regions.iter_mut().enumerate() {
-            let Some(window) = region.reach.filter(|_| region.window.is_some()) else {
-                continue;
-            };
-            let problem = Problem {
-                scale: &self.scales[self.level],
-                level: self.level,
-                support: Support {
-                    offered: Some(&self.offered),
-                    ..Support::of(&self.labels, k, window)
-                },
-                prior,
-                sigma: self.sigma,
-            };
-            let free = if moving {
-                free(region.model)
-            } else {
-                Free::Depth
-            };
-            let moves = if moving {
-                region.model != MotionModel::Still
-            } else {
-                region.model.translates()
-            };
-            region.outcome = self.estimator.improve(
-                &problem,
-                &mut region.state,
-                free,
-                if moves { steps } else { 0 },
-                &mut region.equations,
-                region.fresh,
-            );
-            region.fresh = true;
+        for k in 0..self.regions.len() {
+            self.improve_region(k, prior, steps, moving);
         }
+    }
+
+    /// Up to `steps` steps of region k's surface, and of its motion where `moving`.
+    pub(super) fn improve_region(&mut self, k: usize, prior: Prior, steps: usize, moving: bool) {
+        let region = &mut self.regions[k];
+        let Some(window) = region.reach.filter(|_| region.window.is_some()) else {
+            return;
+        };
+        let problem = Problem {
+            scale: &self.scales[self.level],
+            level: self.level,
+            support: Support {
+                offered: Some(&self.offered),
+                ..Support::of(&self.labels, k, window)
+            },
+            prior,
+            sigma: self.sigma,
+        };
+        let (free, moves) = if moving {
+            (free(region.model), region.model != MotionModel::Still)
+        } else {
+            (Free::Depth, region.model.translates())
+        };
+        region.outcome = self.estimator.improve(
+            &problem,
+            &mut region.state,
+            free,
+            if moves { steps } else { 0 },
+            &mut region.equations,
+            region.fresh,
+        );
+        region.fresh = true;
     }
 
     /// Compares the motion models that are left.

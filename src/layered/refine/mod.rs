@@ -11,5 +11,5 @@ mod sweep;
 mod view;
 mod warp;
 
-pub use dense::refine;
+pub use dense::{Refined, refine};
 pub use sweep::{match_range, sweep};
