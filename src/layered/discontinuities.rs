@@ -23,8 +23,8 @@ use crate::window::Window;
 const UNEXPLAINED: [f64; 2] = [0.01, 0.5];
 /// A region with fewer pixels than this has too few matches.
 const FEWEST: usize = 2000;
-/// What the mean cost must fall to.
-const GAIN: f64 = 0.87;
+/// What the mean cost must fall to, against the surface as it was and as it is under the motion found.
+const GAIN: [f64; 2] = [0.87, 0.8];
 /// Share of pixels from which on a surface that is more than a pixel off has lost its way.
 const APART: f64 = 0.25;
 /// Gauss–Newton steps of the surface under the motion found.
@@ -77,7 +77,7 @@ impl Layered {
             let refined = refine(frames, &camera, &swept.motion, &support, swept.rho);
             let before = self.surface_cost(k);
             let after = self.mean_cost(k, &refined.motion, |x, y| refined.rho[(x, y)]);
-            if after < GAIN * before {
+            if after < GAIN[0] * before {
                 self.adopt(k, refined, after, options);
             }
         }
@@ -98,7 +98,8 @@ impl Layered {
         region.state = pixels.clone();
         region.fresh = false;
         self.improve_region(k, prior, STEPS, true);
-        if cost < GAIN * self.surface_cost(k) || self.share_apart(k, &pixels, &refined.rho) > APART
+        if cost < GAIN[1] * self.surface_cost(k)
+            || self.share_apart(k, &pixels, &refined.rho) > APART
         {
             let region = &mut self.regions[k];
             region.state = pixels;
