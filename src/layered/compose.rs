@@ -40,8 +40,8 @@ impl Layered {
         let mut occluded = Grid::new(width, height, 0u8);
         let [nearest, farthest] = NEAREST_FARTHEST;
         let f = camera.focal as f32;
-        let targets: Vec<_> = (self.regions.iter())
-            .map(|r| r.state.pose().target(finest))
+        let views: Vec<_> = (self.regions.iter())
+            .map(|r| r.state.view(&camera))
             .collect();
         for y in 0..height {
             for x in 0..width {
@@ -58,7 +58,7 @@ impl Layered {
                     Some(dense) => dense[at],
                     None => region.state.surface.at(x as f32, y as f32),
                 };
-                let (to_x, to_y) = targets[k].of(x, y, rho);
+                let [to_x, to_y] = views[k].target(x, y, rho);
                 (flow.u[at], flow.v[at]) = (to_x - x as f32, to_y - y as f32);
                 depth[at] = rho.max(farthest.recip()).recip().max(nearest);
                 let hidden = k == 0 && occlusion.as_ref().is_some_and(|o| o.at(to_x, to_y) != 0);

@@ -23,8 +23,8 @@ use crate::window::Window;
 const UNEXPLAINED: [f64; 2] = [0.01, 0.5];
 /// A region with fewer pixels than this has too few matches.
 const FEWEST: usize = 2000;
-/// What the mean cost must fall to.
-const GAIN: f64 = 0.87;
+/// What the mean cost must fall to, against the surface as it was and as it is under the motion found.
+const GAIN: [f64; 2] = [0.87, 0.8];
 /// Share of pixels from which on a surface that is more than a pixel off has lost its way.
 const APART: f64 = 0.25;
 /// Gauss–Newton steps of the surface under the motion found.
@@ -74,10 +74,10 @@ impl Layered {
                 continue;
             };
             let swept = sweep(frames, &camera, &found.motion, &support, range);
-            let refined = refine(frames, &camera, &swept.motion, &support, swept.rho);
+            let refined = refine(&self.scales[0], &swept.motion, &support, swept.rho);
             let before = self.surface_cost(k);
             let after = self.mean_cost(k, &refined.motion, |x, y| refined.rho[(x, y)]);
-            if after < GAIN * before {
+            if after < GAIN[0] * before {
                 self.adopt(k, refined, after, options);
             }
         }
@@ -98,7 +98,8 @@ impl Layered {
         region.state = pixels.clone();
         region.fresh = false;
         self.improve_region(k, prior, STEPS, true);
-        if cost < GAIN * self.surface_cost(k) || self.share_apart(k, &pixels, &refined.rho) > APART
+        if cost < GAIN[1] * self.surface_cost(k)
+            || self.share_apart(k, &pixels, &refined.rho) > APART
         {
             let region = &mut self.regions[k];
             region.state = pixels;
@@ -111,15 +112,15 @@ impl Layered {
     fn share_apart(&self, k: usize, other: &State, rho: &Grid<f32>) -> f64 {
         let scale = &self.scales[0];
         let own = &self.regions[k].state;
-        let targets = [own, other].map(|state| state.pose().target(scale));
+        let views = [own, other].map(|state| state.view(&scale.camera));
         let (mut all, mut apart) = (0usize, 0usize);
         for y in 0..scale.height {
             for x in 0..scale.width {
                 if usize::from(self.labels[(x, y)]) != k {
                     continue;
                 }
-                let (a, b) = targets[0].of(x, y, own.surface.at(x as f32, y as f32));
-                let (c, d) = targets[1].of(x, y, rho[(x, y)]);
+                let [a, b] = views[0].target(x, y, own.surface.at(x as f32, y as f32));
+                let [c, d] = views[1].target(x, y, rho[(x, y)]);
                 all += 1;
                 apart += usize::from((a - c).hypot(b - d) > 1.0);
             }
@@ -139,7 +140,7 @@ impl Layered {
         let mut state = self.regions[k].state.clone();
         state.translation = motion.translation;
         state.rotation = motion.matrix();
-        let target = state.pose().target(scale);
+        let view = state.view(&scale.camera);
         let Some(Window {
             left,
             top,
@@ -156,9 +157,9 @@ impl Layered {
                 if usize::from(self.labels[(x, y)]) != k {
                     continue;
                 }
-                let (to_x, to_y) = target.of(x, y, rho(x, y));
+                let [to_x, to_y] = view.target(x, y, rho(x, y));
                 let cost = if scale.contains(to_x, to_y) {
-                    let e = scale.brightness(to_x, to_y) - scale.first[(x, y)];
+                    let e = scale.second.at(to_x, to_y) - scale.first[(x, y)];
                     e * e * most / (most + e * e)
                 } else {
                     most

@@ -25,6 +25,7 @@ mod scale;
 mod solver;
 mod stages;
 mod start;
+mod view;
 mod warm;
 
 pub(crate) use solver::Layered;

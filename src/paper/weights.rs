@@ -58,14 +58,3 @@ impl Noise {
         }
     }
 }
-
-/// σ of residuals: 1.4826 times their median size, as for a Gaussian, whatever a minority does.
-pub(crate) fn spread(mut residuals: Vec<f32>) -> f64 {
-    if residuals.is_empty() {
-        return 0.0;
-    }
-    let middle = residuals.len() / 2;
-    let (_, median, _) =
-        residuals.select_nth_unstable_by(middle, |a, b| a.abs().total_cmp(&b.abs()));
-    1.4826 * f64::from(median.abs())
-}

@@ -16,14 +16,13 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use super::super::models::Problem;
-use super::normal_equations::{NormalEquations, Pose};
+use super::curvature::{Prior, curvature_weight, for_each_curvature, pull, surface_energy};
+use super::normal_equations::NormalEquations;
 use super::surface::{RHO, Surface};
-use crate::camera::RigidMotion;
-use crate::linalg::{Banded, solve};
-use crate::options::Diffusion;
+use crate::camera::{Camera, RigidMotion};
+use crate::layered::view::View;
+use crate::linalg::{Banded, solve, tangents};
 
-/// Pull of ρ towards 1 where nothing is seen, in variances of the residual for a pixel.
-const PULL: f32 = 1e-4;
 /// Pull of δT towards 0, in variances of the residual: a region may show nothing of it.
 const DAMPING: f64 = 1.0;
 /// Longest δT in a step, as a share of |T|.
@@ -48,16 +47,6 @@ pub(crate) enum Free {
     Rotation,
     /// T, ω and ρ.
     Full,
-}
-
-/// What is charged for curvature.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Prior {
-    /// μ, grey levels²·px².
-    pub mu: f64,
-    pub diffusion: Diffusion,
-    /// ε of g(r/ε), change of slope per control point, 1/px.
-    pub epsilon: f64,
 }
 
 /// What a step leaves.
@@ -92,24 +81,16 @@ impl State {
         }
     }
 
-    /// As the pixel loops want it.
-    pub fn pose(&self) -> Pose {
+    /// Where it leads, seen by a camera.
+    pub fn view(&self, camera: &Camera) -> View {
+        View::new(camera, self.rotation, self.translation)
+    }
+
+    /// Two directions perpendicular to T and as long.
+    pub fn tangent(&self) -> [DVec3; 2] {
         let length = self.translation.length();
-        let (b, c) = if length > 0.0 {
-            let (b, c) = (self.translation / length).any_orthonormal_pair();
-            (b * length, c * length)
-        } else {
-            (DVec3::ZERO, DVec3::ZERO)
-        };
-        Pose {
-            rotation: self
-                .rotation
-                .transpose()
-                .to_cols_array_2d()
-                .map(|row| row.map(|v| v as f32)),
-            translation: self.translation.to_array().map(|v| v as f32),
-            tangent: [b, c].map(|v| v.to_array().map(|v| v as f32)),
-        }
+        let direction = self.translation.try_normalize();
+        direction.map_or_else(Default::default, |t| tangents(t).map(|b| b * length))
     }
 
     /// T and ω.
@@ -215,7 +196,7 @@ impl Estimator {
         self.cross.resize(nodes, [0.0; 6]);
         let rows = surface.rows - 1;
         for (n, cell) in equations.cells.iter().enumerate() {
-            let corners = corners(surface, n / rows, n % rows);
+            let corners = surface.corners(n / rows, n % rows);
             for p in 0..4 {
                 for q in 0..=p {
                     let pair = 3 * ((p >> 1) + (q >> 1)) + (p & 1) + (q & 1);
@@ -257,9 +238,8 @@ impl Estimator {
         delta: [f64; 5],
         moves_depth: bool,
     ) {
-        let pose = state.pose();
-        let tangent = pose.tangent.map(|b| DVec3::from_array(b.map(f64::from)));
-        let shift = tangent[0] * delta[0] + tangent[1] * delta[1];
+        let [first, second] = state.tangent();
+        let shift = first * delta[0] + second * delta[1];
         if !moves_depth {
             state.rotation = turn(DVec3::new(delta[2], delta[3], delta[4])) * state.rotation;
             return;
@@ -297,7 +277,7 @@ impl NormalEquations {
         let (mut sum, mut count) = (0.0, 0.0);
         for (n, cell) in self.cells.iter().enumerate() {
             if cell.square[0] + cell.square[4] + cell.square[8] > 0.0 {
-                let corners = corners(surface, n / rows, n % rows);
+                let corners = surface.corners(n / rows, n % rows);
                 sum += corners.map(&value).iter().sum::<f32>();
                 count += 4.0;
             }
@@ -311,16 +291,6 @@ impl NormalEquations {
         let square = self.mean(surface, |n| (surface.rho[n] - mean).powi(2));
         f64::from(square / (mean * mean).max(1e-6))
     }
-}
-
-/// The control points at the corners of a cell, by column, then row.
-fn corners(surface: &Surface, column: usize, row: usize) -> [usize; 4] {
-    [
-        surface.node(column, row),
-        surface.node(column, row + 1),
-        surface.node(column + 1, row),
-        surface.node(column + 1, row + 1),
-    ]
 }
 
 /// Solves for the motions that are free; nothing where the data leave them open.
@@ -359,62 +329,6 @@ fn outcome_of(equations: &NormalEquations, state: &State, prior: &Prior, sigma: 
         energy: equations.cost + surface_energy(&state.surface, prior, sigma),
         data: equations.cost,
         spread: equations.spread,
-    }
-}
-
-fn pull(surface: &Surface, variance: f32) -> f32 {
-    PULL * variance * (surface.spacing * surface.spacing) as f32
-}
-
-/// What curvature and distance from 1 cost, grey levels².
-pub(crate) fn surface_energy(surface: &Surface, prior: &Prior, sigma: f32) -> f64 {
-    let s = surface.spacing as f32;
-    let edge = prior.epsilon as f32 * s;
-    let mut sum = 0.0;
-    for_each_curvature(surface, |nodes, factors, share| {
-        let d: f32 = nodes
-            .iter()
-            .zip(factors)
-            .map(|(&n, f)| f * surface.rho[n])
-            .sum();
-        let square = match prior.diffusion {
-            Diffusion::Isotropic => d * d,
-            Diffusion::Anisotropic => 2.0 * edge * edge * ((1.0 + (d / edge).powi(2)).sqrt() - 1.0),
-        };
-        sum += f64::from(share * square);
-    });
-    let pull = pull(surface, sigma * sigma);
-    let away: f32 = surface.rho.iter().map(|rho| (rho - 1.0).powi(2)).sum();
-    prior.mu / f64::from(s * s) * sum + f64::from(pull * away)
-}
-
-/// Half the derivative of what a second difference costs, over it.
-fn curvature_weight(d: f32, spacing: usize, prior: &Prior) -> f32 {
-    let s = spacing as f32;
-    let mu = prior.mu as f32 / (s * s);
-    match prior.diffusion {
-        Diffusion::Isotropic => mu,
-        Diffusion::Anisotropic => mu / (1.0 + (d / (prior.epsilon as f32 * s)).powi(2)).sqrt(),
-    }
-}
-
-/// Calls with the control points, factors and share of each second difference: ρ_xx, ρ_yy and, twice, ρ_xy.
-fn for_each_curvature(surface: &Surface, mut each: impl FnMut(&[usize], &[f32], f32)) {
-    let node = |i, j| surface.node(i, j);
-    for i in 0..surface.columns {
-        for j in 0..surface.rows {
-            if i > 0 && i + 1 < surface.columns {
-                let three = [node(i - 1, j), node(i, j), node(i + 1, j)];
-                each(&three, &[1.0, -2.0, 1.0], 1.0);
-            }
-            if j > 0 && j + 1 < surface.rows {
-                let three = [node(i, j - 1), node(i, j), node(i, j + 1)];
-                each(&three, &[1.0, -2.0, 1.0], 1.0);
-            }
-            if i + 1 < surface.columns && j + 1 < surface.rows {
-                each(&corners(surface, i, j), &[1.0, -1.0, -1.0, 1.0], 2.0);
-            }
-        }
     }
 }
 

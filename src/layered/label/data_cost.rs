@@ -38,16 +38,16 @@ pub(crate) fn rigid_residual(scale: &Scale, level: usize, region: &Region, out: 
     }
     let state = &region.state;
     let window = inside(&state.surface.window(), level, scale);
-    let target = state.pose().target(scale);
+    let view = state.view(&scale.camera);
     let mut rho = vec![1.0; window.width];
     for y in window.top..window.top + window.height {
         state.surface.row(level, y, window.left, &mut rho);
         let first = &scale.plain.row(y)[window.left..window.left + window.width];
         let out = &mut out.row_mut(y)[window.left..window.left + window.width];
         for (n, rho) in rho.iter().enumerate() {
-            let (x, y) = target.of(window.left + n, y, *rho);
+            let [x, y] = view.target(window.left + n, y, *rho);
             out[n] = if scale.contains(x, y) {
-                scale.plain_brightness(x, y) - first[n]
+                scale.plain_second.at(x, y) - first[n]
             } else {
                 f32::NAN
             };
@@ -85,7 +85,7 @@ pub(crate) fn planar_cost(scale: &Scale, region: &Region, sigma: f32, out: &mut 
             let (u, v) = region.flow.at(x, y);
             let (to_x, to_y) = (px as f32 + u * f, py as f32 + v * f);
             *out = if scale.contains(to_x, to_y) {
-                cost(scale.brightness(to_x, to_y) - first[px], most)
+                cost(scale.second.at(to_x, to_y) - first[px], most)
             } else {
                 LEAVES * most
             };

@@ -5,6 +5,7 @@ use super::partition::{argmin, box_blur, outline_energy, partition, pull};
 use super::{NOBODY, saturation};
 use crate::grid::Grid;
 use crate::layered::scale::Scale;
+use crate::spread::spread;
 
 /// Half the side of the window over which costs are averaged while regions are planes.
 const PLANAR_WINDOW: usize = 3;
@@ -76,12 +77,8 @@ impl Memory {
             sizes.clear();
             let owned = labels.data().iter().zip(residuals.data());
             let owned = owned.filter(|(l, e)| usize::from(**l) == k && e.is_finite());
-            sizes.extend(owned.map(|(_, e)| e.abs()));
-            if sizes.len() > 1 {
-                let middle = sizes.len() / 2;
-                let median = *sizes.select_nth_unstable_by(middle, f32::total_cmp).1;
-                most = most.max(1.4826 * median);
-            }
+            sizes.extend(owned.map(|(_, e)| e));
+            most = most.max(spread(sizes) as f32);
         }
         most
     }

@@ -18,13 +18,14 @@
 
 use super::boundaries::settle;
 use super::hidden::{continue_outside, hidden};
+use super::linearisation::Linearisation;
 use super::lines::{Bending, Lines};
 use super::motion_step::motion_step;
 use super::sweep::unit_mean;
-use super::view::View;
-use super::warp::{Linearisation, Pair};
-use crate::camera::{Camera, RigidMotion};
+use crate::camera::RigidMotion;
 use crate::grid::Grid;
+use crate::layered::scale::Scale;
+use crate::layered::view::View;
 
 /// Warps.
 const WARPS: usize = 6;
@@ -56,39 +57,31 @@ pub struct Refined {
     pub motion: RigidMotion,
 }
 
-/// Refines ρ from `start` for the pixels of `support`, and the motion. Frames are grey levels; all grids are of one
-/// size. `start` should be right to a pixel or two of image motion; |T| must not be 0.
+/// Refines ρ from `start` for the pixels of `support`, and the motion. All grids are of the scale's size. `start` should be
+/// right to a pixel or two of image motion; |T| must not be 0.
 pub fn refine(
-    frames: [&Grid<f32>; 2],
-    camera: &Camera,
+    scale: &Scale,
     motion: &RigidMotion,
     support: &Grid<bool>,
     start: Grid<f32>,
 ) -> Refined {
-    let mut dense = Dense::new(frames, start);
+    let mut dense = Dense::new(scale, start);
     let mut motion = *motion;
     for warp in 0..WARPS {
         let share = warp as f32 / (WARPS - 1) as f32;
         let between = |[first, last]: [f32; 2]| first * (last / first).powf(share);
-        let mut view = View::new(camera, &motion);
-        let scale = view.pixels_a_rho(support);
+        let mut view = View::of(&scale.camera, &motion);
+        let pixels = view.pixels_a_rho(support);
         if warp > 1 {
-            settle(
-                &dense.pair,
-                &view,
-                support,
-                &mut dense.rho,
-                scale,
-                dense.sigma,
-            );
+            settle(scale, &view, support, &mut dense.rho, pixels, dense.sigma);
         }
-        dense.look(&view, support, scale);
+        dense.look(&view, support, pixels);
         if warp < MOTION_WARPS {
             let compared = &mut dense.compared;
             motion_step(compared, &view, &dense.rho, dense.sigma, &mut motion);
-            view = View::new(camera, &motion);
+            view = View::of(&scale.camera, &motion);
         }
-        dense.smooth(&view, scale, between(SMOOTHNESS), between(CREASE));
+        dense.smooth(&view, pixels, between(SMOOTHNESS), between(CREASE));
     }
     let mut refined = Refined {
         rho: dense.rho,
@@ -99,8 +92,8 @@ pub fn refine(
 }
 
 /// What a warp works on.
-struct Dense {
-    pair: Pair,
+struct Dense<'a> {
+    scale: &'a Scale,
     contrast: Grid<f32>,
     rho: Grid<f32>,
     hidden: Grid<bool>,
@@ -112,14 +105,18 @@ struct Dense {
     pull: Vec<f32>,
 }
 
-impl Dense {
-    fn new(frames: [&Grid<f32>; 2], start: Grid<f32>) -> Self {
+impl<'a> Dense<'a> {
+    fn new(scale: &'a Scale, start: Grid<f32>) -> Self {
         let (width, height) = (start.width(), start.height());
         let plane = || Grid::new(width, height, 0.0f32);
-        let pair = Pair::new(frames[0], frames[1]);
+        let [gx, gy] = &scale.gradient;
+        let mut contrast = gx.clone();
+        for (c, gy) in contrast.data_mut().iter_mut().zip(gy.data()) {
+            *c = c.hypot(*gy);
+        }
         Self {
-            contrast: pair.contrast(),
-            pair,
+            scale,
+            contrast,
             hidden: Grid::new(width, height, false),
             compared: Linearisation::new(width * height),
             sigma: 1.0,
@@ -135,39 +132,39 @@ impl Dense {
         }
     }
 
-    /// Warps by the present ρ. `scale` is pixels of image motion for each unit of ρ.
-    fn look(&mut self, view: &View, support: &Grid<bool>, scale: f32) {
-        self.hidden = hidden(&self.rho, view, support, COVERED / scale);
-        continue_outside(&mut self.rho, view, &self.hidden, 1.0 / scale);
-        self.pair
-            .linearise(view, &self.rho, support, &self.hidden, &mut self.compared);
+    /// Warps by the present ρ. `pixels` of image motion are a unit of ρ.
+    fn look(&mut self, view: &View, support: &Grid<bool>, pixels: f32) {
+        self.hidden = hidden(&self.rho, view, support, COVERED / pixels);
+        continue_outside(&mut self.rho, view, &self.hidden, 1.0 / pixels);
+        self.compared
+            .compare(self.scale, view, &self.rho, support, &self.hidden);
         self.sigma = self.compared.spread();
     }
 
     /// One solve for ρ.
-    fn smooth(&mut self, view: &View, scale: f32, lambda: f32, delta: f32) {
+    fn smooth(&mut self, view: &View, pixels: f32, lambda: f32, delta: f32) {
         for (x, &r) in self.x.iter_mut().zip(self.rho.data()) {
-            *x = r * scale;
+            *x = r * pixels;
         }
-        self.weigh_data(view, scale);
+        self.weigh_data(view, pixels);
         self.weigh_bending(lambda, delta);
         let shifts = SHIFTS.map(|s| s * lambda);
         self.lines
             .solve(&self.bending, &mut self.x, &self.pull, &shifts);
         for (r, &x) in self.rho.data_mut().iter_mut().zip(&self.x) {
-            let step = (x - *r * scale).clamp(-FARTHEST, FARTHEST);
-            *r += step / scale;
+            let step = (x - *r * pixels).clamp(-FARTHEST, FARTHEST);
+            *r += step / pixels;
         }
     }
 
-    fn weigh_data(&mut self, view: &View, scale: f32) {
+    fn weigh_data(&mut self, view: &View, pixels: f32) {
         let t = view.translation;
         let cut = 1.0 / (CLIP * self.sigma).powi(2);
         let precision = 1.0 / self.sigma.powi(2);
         let [gx, gy, gz] = &self.compared.gradient;
         let data = self.bending.data.data_mut();
         for (i, (a, pull)) in data.iter_mut().zip(&mut self.pull).enumerate() {
-            let slope = (gx[i] * t[0] + gy[i] * t[1] + gz[i] * t[2]) / scale;
+            let slope = (gx[i] * t[0] + gy[i] * t[1] + gz[i] * t[2]) / pixels;
             let e = self.compared.residual[i];
             let weight = 1.0 / (1.0 + e * e * cut);
             // Where nothing is compared the slope is 0.
@@ -206,6 +203,7 @@ impl Dense {
 mod tests {
     use super::*;
     use crate::camera::Camera;
+    use crate::frames::blur;
     use glam::DVec3;
 
     const SIZE: [usize; 2] = [96, 72];
@@ -255,7 +253,7 @@ mod tests {
     fn error(step: bool, wrong: impl Fn(usize, usize) -> f32) -> f32 {
         let [width, height] = SIZE;
         let (shift, focal) = (3.0, 100.0);
-        let [first, second] = frames(step, shift);
+        let [first, second] = frames(step, shift).map(|f| blur(&f, 0.7));
         let camera = Camera::centred(focal, width, height).unwrap();
         let motion = RigidMotion {
             translation: DVec3::new(shift / focal, 0.0, 0.0),
@@ -264,7 +262,8 @@ mod tests {
         let support = Grid::new(width, height, true);
         let truth = Grid::from_fn(width, height, |x, _| plane(x as f64, step) as f32);
         let start = Grid::from_fn(width, height, |x, y| truth[(x, y)] + wrong(x, y));
-        let found = refine([&first, &second], &camera, &motion, &support, start);
+        let scale = Scale::new([first.clone(), second.clone()], [first, second], camera);
+        let found = refine(&scale, &motion, &support, start);
         let (mut sum, mut count) = (0.0, 0.0);
         for y in 0..height {
             for x in 0..width - 10 {

@@ -4,8 +4,8 @@
 //! tolerance, it is hidden, and so it is outside the frame. What hides is in front, so a hidden pixel takes the
 //! depth of the farther side: of what is seen in the eight directions within 40 pixels, the lower quarter.
 
-use super::view::View;
 use crate::grid::Grid;
+use crate::layered::view::View;
 
 /// How far to look for what is seen, in pixels.
 const FARTHEST: isize = 40;
@@ -178,7 +178,7 @@ mod tests {
             translation: DVec3::new(0.02, 0.0, 0.0),
             rotation: DVec3::ZERO,
         };
-        View::new(&camera, &motion)
+        View::of(&camera, &motion)
     }
 
     #[test]

@@ -4,12 +4,12 @@ mod boundaries;
 mod census;
 mod dense;
 mod hidden;
+mod linearisation;
 mod lines;
 mod motion_step;
 mod semi_global;
 mod sweep;
-mod view;
-mod warp;
+mod volume;
 
 pub use dense::{Refined, refine};
 pub use sweep::{match_range, sweep};

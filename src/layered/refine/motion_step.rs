@@ -11,10 +11,10 @@
 
 use glam::{DQuat, DVec3};
 
-use super::view::View;
-use super::warp::Linearisation;
+use super::linearisation::Linearisation;
 use crate::camera::RigidMotion;
 use crate::grid::Grid;
+use crate::layered::view::View;
 use crate::linalg::{solve, tangents};
 
 /// Side of a block in pixels.
@@ -133,7 +133,7 @@ fn add(m: &mut [[f32; 7]; 7], j: [f32; 6], e: f32, sigma: f32) {
 mod tests {
     use super::*;
     use crate::camera::Camera;
-    use crate::layered::refine::warp::Pair;
+    use crate::layered::scale::Scale;
 
     #[test]
     fn finds_back_to_the_motion() {
@@ -151,12 +151,13 @@ mod tests {
         let rho = Grid::from_fn(width, height, |x, y| {
             1.0 + 0.4 * (0.1 * x as f32).sin() + 0.4 * (0.13 * y as f32).cos()
         });
-        let view = View::new(&camera, &truth);
+        let view = View::of(&camera, &truth);
         let first = Grid::from_fn(width, height, |x, y| {
             texture(view.target(x, y, rho[(x, y)]))
         });
         let second = Grid::from_fn(width, height, |x, y| texture([x as f32, y as f32]));
-        let pair = Pair::new(&first, &second);
+        let frames = [first, second];
+        let scale = Scale::new(frames.clone(), frames, camera);
         let (support, hidden) = (
             Grid::new(width, height, true),
             Grid::new(width, height, false),
@@ -171,8 +172,8 @@ mod tests {
         let length = motion.translation.length();
         let mut compared = Linearisation::new(width * height);
         for _ in 0..8 {
-            let view = View::new(&camera, &motion);
-            pair.linearise(&view, &rho, &support, &hidden, &mut compared);
+            let view = View::of(&camera, &motion);
+            compared.compare(&scale, &view, &rho, &support, &hidden);
             motion_step(&mut compared, &view, &rho, 1.0, &mut motion);
         }
         let (degrees, turn) = away(&motion);

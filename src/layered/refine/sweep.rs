@@ -1,46 +1,29 @@
 //! Plane sweep: inverse depth at every pixel of one rigid motion, by trying depths.
 //!
 //! Depth is u (see [`View`]) at 32 to 64 equal steps, so that a pixel's target moves evenly along a line of the second
-//! frame, by half a pixel or so. The cost of a step is
-//!
-//! ```text
-//! C = min(0.7 |I2' − I1'|, 18) + 1.5 · (bits in which the 5×5 census differs)
-//! ```
-//!
-//! I' in grey levels less the local mean, I2' bilinear. It is smoothed by semi-global matching; the best step is taken,
+//! frame, by half a pixel or so. What a step costs (`volume.rs`) is smoothed by semi-global matching; the best step is taken,
 //! to sub-step by the two lines through its neighbours, then the 3×3 median, and hidden pixels are filled from behind.
-//! Pixels outside of the support cost nothing at any depth, so that they follow what is around them.
 //!
 //! ρ has a mean of 1 over the support, and T is scaled with it. Frames of more than 640×480 pixels are swept at half
 //! their size: 3 bytes × 64 steps a pixel is the memory that it takes.
 
-use super::census::census;
 use super::hidden::{fill, hidden};
 use super::semi_global::aggregate;
-use super::view::View;
+use super::volume::volume;
 use crate::camera::{Camera, RigidMotion};
 use crate::frames::{halved, halved_camera};
 use crate::grid::Grid;
-use crate::init::{EpipolarMotion, Match, less_box_mean};
+use crate::init::{EpipolarMotion, Match};
+use crate::layered::view::View;
 
 /// Fewest and most steps of depth.
 const LABELS: [usize; 2] = [32, 64];
 /// Steps a pixel of image motion.
 const LABELS_A_PIXEL: f32 = 2.0;
-/// Radius of the local mean in pixels.
-const MEAN_RADIUS: usize = 8;
-/// Cost of a grey level, and most that brightness costs.
-const GREY: (f32, f32) = (0.7, 18.0);
-/// Cost of a census bit.
-const BIT: f32 = 1.5;
-/// Cost of a target outside of the second frame.
-const OUTSIDE: u8 = 18;
 /// A pixel is hidden behind another that is nearer by more than this many steps.
 const HIDDEN_STEPS: f32 = 2.0;
 /// Frames with more pixels than this are halved.
 const MOST_PIXELS: usize = 640 * 480;
-/// Fractional bits of a target's coordinates.
-const FRACTION: u32 = 16;
 
 /// Inverse depth found by a plane sweep.
 #[derive(Clone, Debug)]
@@ -55,7 +38,7 @@ pub struct Sweep {
 
 /// The range of u that the matches of one motion need, with a margin; |T| is 1. `None` with fewer than eight.
 pub fn match_range(matches: &[Match], found: &EpipolarMotion, camera: &Camera) -> Option<[f32; 2]> {
-    let view = View::new(camera, &found.motion);
+    let view = View::of(camera, &found.motion);
     let mut all: Vec<f32> = matches
         .iter()
         .filter_map(|m| {
@@ -124,12 +107,12 @@ fn sweep_whole(
     [low, high]: [f32; 2],
 ) -> Sweep {
     let (width, height) = (frames[0].width(), frames[0].height());
-    let view = View::new(camera, motion);
+    let view = View::of(camera, motion);
     let labels = count_labels(&view, width, height, high - low);
     let step = (high - low) / (labels - 1) as f32;
-    let volume = Volume::new(frames, &view, support, labels, low, step);
-    let sums = aggregate(&volume.costs, labels, frames[0]);
-    drop(volume);
+    let costs = volume(frames, &view, support, labels, low, step);
+    let sums = aggregate(&costs, labels, frames[0]);
+    drop(costs);
     let best = Grid::from_vec(
         width,
         height,
@@ -233,108 +216,6 @@ fn median3(field: &Grid<f32>) -> Grid<f32> {
         }
     }
     out
-}
-
-/// C of every pixel and step.
-struct Volume {
-    costs: Vec<u8>,
-}
-
-impl Volume {
-    fn new(
-        frames: [&Grid<f32>; 2],
-        view: &View,
-        support: &Grid<bool>,
-        labels: usize,
-        low: f32,
-        step: f32,
-    ) -> Self {
-        let (width, height) = (frames[0].width(), frames[0].height());
-        let bits = frames.map(census);
-        // Sixteenths of a grey level.
-        let greys = frames.map(|frame| {
-            let rest = less_box_mean(frame, MEAN_RADIUS);
-            rest.data()
-                .iter()
-                .map(|v| (v * 16.0) as i16)
-                .collect::<Vec<i16>>()
-        });
-        let mut costs = vec![0u8; labels * width * height];
-        for y in 0..height {
-            for x in 0..width {
-                let i = y * width + x;
-                if !support[(x, y)] {
-                    continue;
-                }
-                let row = &mut costs[i * labels..(i + 1) * labels];
-                let (start, speed) = view.line(view.turned(x, y));
-                let line = Line {
-                    start: [start[0] + low * speed[0], start[1] + low * speed[1]],
-                    step: speed.map(|s| s * step),
-                };
-                row.fill(OUTSIDE);
-                let Some((first, last)) = line.within(width, height, labels) else {
-                    continue;
-                };
-                let fixed = |v: f32| (v * (1 << FRACTION) as f32) as i32;
-                let end = [width, height].map(|side| ((side as i32 - 1) << FRACTION) - 1);
-                let mut at = [0, 1].map(|k| fixed(line.start[k] + line.step[k] * first as f32));
-                let by = line.step.map(fixed);
-                for cost in &mut row[first..=last] {
-                    let [px, py] = [at[0].clamp(0, end[0]), at[1].clamp(0, end[1])];
-                    let (xi, yi) = ((px >> FRACTION) as usize, (py >> FRACTION) as usize);
-                    let (tx, ty) = ((px >> 8) & 255, (py >> 8) & 255);
-                    let o = yi * width + xi;
-                    let (top, bottom) = (&greys[1][o..o + 2], &greys[1][o + width..o + width + 2]);
-                    let [a, b, c, d] = [top[0], top[1], bottom[0], bottom[1]].map(i32::from);
-                    let upper = a * 256 + tx * (b - a);
-                    let lower = c * 256 + tx * (d - c);
-                    let grey = (upper >> 8) + ((ty * ((lower - upper) >> 8)) >> 8);
-                    let difference = (grey - i32::from(greys[0][i])).abs();
-                    let nearest = o + (tx >> 7) as usize + (ty >> 7) as usize * width;
-                    let differing = (bits[0][i] ^ bits[1][nearest]).count_ones() as i32;
-                    *cost = cost_of(difference, differing);
-                    at = [at[0] + by[0], at[1] + by[1]];
-                }
-            }
-        }
-        Self { costs }
-    }
-}
-
-/// C, of a difference in sixteenths of a grey level and a number of census bits.
-fn cost_of(difference: i32, differing: i32) -> u8 {
-    const SCALE: f32 = 16.0;
-    let grey = ((difference * (GREY.0 * SCALE) as i32) >> 4).min((GREY.1 * SCALE) as i32);
-    ((grey + differing * (BIT * SCALE) as i32) >> 4) as u8
-}
-
-/// Where a pixel goes, label by label.
-struct Line {
-    start: [f32; 2],
-    step: [f32; 2],
-}
-
-impl Line {
-    /// First and last label whose target lies on the frame.
-    fn within(&self, width: usize, height: usize, labels: usize) -> Option<(usize, usize)> {
-        let (mut first, mut last) = (0.0f32, (labels - 1) as f32);
-        for (k, side) in [width, height].into_iter().enumerate() {
-            let most = side as f32 - 1.002;
-            let (a, s) = (self.start[k], self.step[k]);
-            if s.abs() < 1e-6 {
-                if !(a >= 0.0 && a <= most) {
-                    return None;
-                }
-            } else {
-                let (p, q) = (-a / s, (most - a) / s);
-                first = first.max(p.min(q));
-                last = last.min(p.max(q));
-            }
-        }
-        let (first, last) = (first.ceil(), last.floor());
-        (first <= last).then_some((first as usize, last as usize))
-    }
 }
 
 #[cfg(test)]

@@ -1,10 +1,11 @@
 use glam::DVec3;
 
-use super::super::step::{Prior, turn};
+use super::super::curvature::Prior;
+use super::super::step::turn;
 use super::*;
 use crate::camera::Camera;
 use crate::frames::{Frame, FramePair, Lighting};
-use crate::layered::scale::pyramid;
+use crate::layered::scale::{Scale, pyramid};
 use crate::options::Diffusion;
 
 /// Frames of one surface before and after a motion, and what is true of them.
@@ -110,12 +111,12 @@ impl Made {
 /// Makes the gradient of the first frame that of the second where `state` leads, so that their mean is the residual's
 /// exact derivative.
 fn align(made: &mut Made, state: &State) {
-    let target = state.pose().target(&made.scale);
+    let view = state.view(&made.scale.camera);
     for y in 0..made.scale.height {
         for x in 0..made.scale.width {
-            let (to_x, to_y) = target.of(x, y, state.surface.at(x as f32, y as f32));
+            let [to_x, to_y] = view.target(x, y, state.surface.at(x as f32, y as f32));
             if made.scale.contains(to_x, to_y) {
-                let [_, gx, gy] = made.scale.read(to_x, to_y);
+                let [_, gx, gy] = made.scale.second.with_gradient(to_x, to_y);
                 made.scale.gradient[0][(x, y)] = gx;
                 made.scale.gradient[1][(x, y)] = gy;
             }
@@ -150,10 +151,7 @@ fn right_hand_sides_are_slopes_of_the_cost() {
     let near = |own: f64, slope: f64, size: f64, what: &str| {
         assert!((own - slope).abs() < 0.01 * size, "{what}: {own}, {slope}");
     };
-    let tangent = state
-        .pose()
-        .tangent
-        .map(|b| DVec3::from_array(b.map(f64::from)));
+    let tangent = state.tangent();
     let right: [f64; 5] = std::array::from_fn(|i| equations.motion[i][5]);
     for i in 0..2 {
         let slope = half_slope(&made, &state, 3e-3, |s, by| {
@@ -197,7 +195,7 @@ fn sums_are_those_of_a_loop_over_pixels() {
     let (scale, surface, window) = (&made.scale, &state.surface, problem.support.window);
     let Camera { focal, cx, cy } = scale.camera;
     let (t, r) = (state.translation, state.rotation);
-    let (b, c) = (t / t.length()).any_orthonormal_pair();
+    let [b, c] = state.tangent().map(|b| b / t.length());
     let mut motion = [[0.0f64; 6]; 6];
     let mut cells = vec![([0.0f64; 9], [[0.0f64; 6]; 4]); equations.cells.len()];
     let (mut cost, mut pixels) = (0.0, 0);
@@ -221,7 +219,10 @@ fn sums_are_those_of_a_loop_over_pixels() {
             if !scale.contains(to_x as f32, to_y as f32) {
                 continue;
             }
-            let [value, gx, gy] = scale.read(to_x as f32, to_y as f32).map(f64::from);
+            let [value, gx, gy] = scale
+                .second
+                .with_gradient(to_x as f32, to_y as f32)
+                .map(f64::from);
             let e = value - f64::from(scale.first[(x, y)]);
             let gx = 0.5 * (gx + f64::from(scale.gradient[0][(x, y)]));
             let gy = 0.5 * (gy + f64::from(scale.gradient[1][(x, y)]));

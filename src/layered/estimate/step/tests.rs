@@ -1,5 +1,6 @@
 use super::super::normal_equations::tests::Made;
 use super::*;
+use crate::options::Diffusion;
 
 const ALL: [Free; 4] = [Free::Depth, Free::Translation, Free::Rotation, Free::Full];
 
