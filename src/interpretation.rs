@@ -5,6 +5,7 @@
 
 use crate::camera::{Camera, RigidMotion};
 use crate::grid::Grid;
+use crate::motion_model::MotionModel;
 
 /// Least and greatest depth that is told, in units in which a region's mean 1/Z is 1.
 pub const NEAREST_FARTHEST: [f32; 2] = [0.02, 50.0];
@@ -41,6 +42,12 @@ impl Interpretation {
     /// Number of regions, the background included.
     pub fn regions(&self) -> usize {
         self.motions.len()
+    }
+
+    /// The motion of each region and its model as far as it shows; of the truth, whose mean 1/Z is 1.
+    pub fn seen(&self) -> impl Iterator<Item = (RigidMotion, MotionModel)> {
+        let motions = self.motions.iter();
+        motions.map(|&motion| (motion, MotionModel::seen(&self.camera, &motion)))
     }
 
     /// The same with region k's depth multiplied by `factors[k]` (1 where `factors` is too short) and

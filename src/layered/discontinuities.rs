@@ -9,9 +9,11 @@
 use super::estimate::{CUT, State, Surface};
 use super::label::saturation;
 use super::refine::{Refined, match_range, refine, sweep};
+use super::scale::Scale;
 use super::solver::Layered;
 use super::stages::STIFFNESS;
 use crate::camera::RigidMotion;
+use crate::frames::blur;
 use crate::grid::Grid;
 use crate::init::{epipolar_motion, matches};
 use crate::motion_model::MotionModel;
@@ -57,11 +59,13 @@ impl Layered {
         let wanted: Vec<usize> = (0..self.regions.len())
             .filter(|&k| self.is_unexplained(k))
             .collect();
-        // Not in each other's light: matches and the sweep compare frames less their local mean.
+        // Not in each other's light: what one frame alone shows is taken for a change of light, which turns depth.
         let pair = self.pair.clone();
         let frames = [&pair.first().grey, &pair.second().grey];
         let all = matches(frames[0], frames[1]);
         let camera = self.scales[0].camera;
+        let smooth = frames.map(|frame| blur(frame, self.smoothing));
+        let scale = Scale::new(smooth, frames.map(Grid::clone), camera);
         for k in wanted {
             let support = self.labels.map(|l| usize::from(l) == k);
             let own: Vec<_> = (all.iter().copied())
@@ -74,7 +78,7 @@ impl Layered {
                 continue;
             };
             let swept = sweep(frames, &camera, &found.motion, &support, range);
-            let refined = refine(&self.scales[0], &swept.motion, &support, swept.rho);
+            let refined = refine(&scale, &swept.motion, &support, swept.rho);
             let before = self.surface_cost(k);
             let after = self.mean_cost(k, &refined.motion, |x, y| refined.rho[(x, y)]);
             if after < GAIN[0] * before {

@@ -21,6 +21,7 @@ use super::scale::{Scale, pyramid};
 use crate::camera::Camera;
 use crate::curves;
 use crate::energy::Energy;
+use crate::error::Error;
 use crate::frames::{FramePair, Lighting};
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
@@ -279,9 +280,18 @@ impl Approach for Layered {
 
     fn find_depth(&mut self, options: &Options) {
         match self.phase {
-            Phase::Planar(_) | Phase::Done => {}
-            Phase::Search | Phase::Rigid(_) => self.estimate_depth(options),
+            Phase::Planar(_) => {}
+            Phase::Search | Phase::Rigid(_) | Phase::Done => self.estimate_depth(options),
             Phase::Refine => self.refine_discontinuities(options),
+        }
+    }
+
+    fn check_depth(&self) -> Result<(), Error> {
+        match self.phase {
+            Phase::Planar(_) => Err(Error::Planes {
+                most: PLANAR_ROUNDS,
+            }),
+            _ => Ok(()),
         }
     }
 
