@@ -44,10 +44,27 @@ impl Interpretation {
         self.motions.len()
     }
 
-    /// The motion of each region and its model as far as it shows; of the truth, whose mean 1/Z is 1.
-    pub fn seen(&self) -> impl Iterator<Item = (RigidMotion, MotionModel)> {
-        let motions = self.motions.iter();
-        motions.map(|&motion| (motion, MotionModel::seen(&self.camera, &motion)))
+    /// The model of each region's motion as far as it shows, T being taken in units in which the region's mean 1/Z is 1.
+    pub fn models(&self) -> Vec<MotionModel> {
+        let mut sums = vec![(0.0, 0usize); self.regions()];
+        for (&k, &z) in self.labels.data().iter().zip(self.depth.data()) {
+            if let Some((sum, count)) = sums.get_mut(usize::from(k))
+                && z.is_finite()
+                && z > 0.0
+            {
+                *sum += f64::from(z).recip();
+                *count += 1;
+            }
+        }
+        let each = self.motions.iter().zip(sums);
+        each.map(|(motion, (sum, count))| {
+            let scaled = RigidMotion {
+                translation: motion.translation * (sum / count.max(1) as f64),
+                ..*motion
+            };
+            MotionModel::seen(&self.camera, &scaled)
+        })
+        .collect()
     }
 
     /// The same with region k's depth multiplied by `factors[k]` (1 where `factors` is too short) and

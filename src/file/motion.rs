@@ -53,15 +53,15 @@ pub struct Seconds {
 
 impl RegionMotion {
     /// The motions of regions 0, 1, … and their models as entries.
-    pub fn list(motions: impl IntoIterator<Item = (RigidMotion, MotionModel)>) -> Vec<Self> {
-        let numbered = (0..).zip(motions);
-        let entry = |(label, (motion, model)): (u8, (RigidMotion, MotionModel))| Self {
+    pub fn list(motions: &[RigidMotion], models: &[MotionModel]) -> Vec<Self> {
+        let regions = (0..).zip(motions.iter().zip(models));
+        let entry = |(label, (motion, model)): (u8, (&RigidMotion, &MotionModel))| Self {
             label,
             translation: motion.translation.to_array(),
             rotation: motion.rotation.to_array(),
-            model: Some(model),
+            model: Some(*model),
         };
-        numbered.map(entry).collect()
+        regions.map(entry).collect()
     }
 
     /// The motion itself.

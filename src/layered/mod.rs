@@ -17,6 +17,8 @@
 mod compose;
 mod discontinuities;
 mod estimate;
+#[cfg(all(target_arch = "wasm32", feature = "bench"))]
+pub(crate) mod kernels;
 mod label;
 mod models;
 mod refine;

@@ -293,9 +293,9 @@ impl Solver {
             regions,
             ..
         } = self.solver.report();
-        let models = regions.iter().map(|region| region.model);
+        let models: Vec<_> = regions.iter().map(|region| region.model).collect();
         MotionFile {
-            regions: RegionMotion::list(found.motions.iter().copied().zip(models)),
+            regions: RegionMotion::list(&found.motions, &models),
             status: self.status(),
             iterations,
             energy: history,

@@ -188,7 +188,7 @@ fn the_motion_of_a_run_that_diverged_can_be_read() {
 fn saved() -> (Interpretation, MotionFile, Vec<(&'static str, Vec<u8>)>) {
     let truth = scene::render("squares", 40, 30).unwrap().truth;
     let motion = MotionFile {
-        regions: RegionMotion::list(truth.seen()),
+        regions: RegionMotion::list(&truth.motions, &truth.models()),
         ..MotionFile::default()
     };
     let files = result::write(&truth, &motion).unwrap();

@@ -13,3 +13,6 @@ mod volume;
 
 pub use dense::{Refined, refine};
 pub use sweep::{match_range, sweep};
+
+#[cfg(all(target_arch = "wasm32", feature = "bench"))]
+pub use {census::census, semi_global::aggregate, volume::volume};
