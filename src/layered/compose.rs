@@ -13,8 +13,6 @@ use crate::solver::Expected;
 
 /// What flow is off by on the mean, in pixels of the scale at work.
 const FLOW_ERROR: f64 = 0.05;
-/// Share of the pixels beside an outline that have the wrong label, at the scale at work.
-const LABEL_ERROR: f64 = 0.5;
 /// Confidence of a region that two motions explain equally well, at most.
 const AMBIGUOUS: f32 = 0.5;
 
@@ -133,7 +131,8 @@ impl Layered {
             .count();
         Some(Expected {
             flow: FLOW_ERROR * f64::from(1u32 << self.level),
-            labels: 2.0 * LABEL_ERROR * beside as f64 / labels.len() as f64,
+            // Of the two pixels beside an outline one has the wrong label.
+            labels: beside as f64 / labels.len() as f64,
         })
     }
 }

@@ -37,8 +37,6 @@ const PASSES: [usize; 2] = [2, 4];
 const FIRST_SIDE: usize = 150;
 /// Pixels between control points on the scale after the first.
 const SPACING: usize = 8;
-/// σ of a region before anything is fitted, grey levels.
-const UNKNOWN_SIGMA: f32 = 10.0;
 
 /// Where a solve stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,8 +116,8 @@ impl Layered {
             labels: Grid::new(1, 1, 0),
             offered: Grid::new(1, 1, super::label::NOBODY),
             regions: Vec::new(),
-            sigma: UNKNOWN_SIGMA,
-            label_sigma: UNKNOWN_SIGMA,
+            sigma: 1.0,
+            label_sigma: 1.0,
             estimator: Estimator::default(),
             memory: Memory::default(),
             energy: Energy::default(),

@@ -3,7 +3,7 @@
 //! Next to the zero line the distance is taken from where φ crosses zero between pixels (linear, so exact to a fraction
 //! of a pixel; a pixel-accurate start would pin the curve). From there it is carried outwards by sweeps over the rows
 //! of the band, down and up in turn, each of which solves the eikonal equation by upwind differences (Zhao, Math. Comp.
-//! 74, 2005) at every pixel of a row at once. One sweep carries it a pixel further; stops after [`SWEEPS`]. φ > 0 inside.
+//! 74, 2005) at every pixel of a row at once. One sweep carries it a pixel further; stops after one for every pixel of [`REACH`], and one more. φ > 0 inside.
 //!
 //! A pixel farther off keeps its sign, and a size of at least [`REACH`].
 
@@ -12,10 +12,6 @@ use crate::grid::Grid;
 
 /// Distance up to which φ is one, in pixels: the band that curves are moved in (`curves.rs`), and its neighbours.
 pub(super) const REACH: f32 = 7.0;
-/// Pixels around a crossing that the band has at least, each way.
-const MARGIN: usize = REACH as usize;
-/// Sweeps down or up: one for every pixel of [`REACH`], and one more.
-const SWEEPS: usize = 8;
 /// Pixels side by side that are in the band or not together: two vectors of the machine.
 const CELL: usize = 8;
 /// Least distance of a pixel from the zero line: φ = 0 has no sign.
@@ -126,7 +122,7 @@ pub(super) struct Redistancing {
     /// The distance where it is fixed, next to the zero line, 0 elsewhere.
     fixed: Grid<f32>,
     crossings: Vec<(usize, usize)>,
-    /// For each row, which cells have a crossing within [`MARGIN`] columns.
+    /// For each row, which cells have a crossing within [`REACH`] columns.
     cells: Grid<bool>,
     row: Vec<f32>,
 }
@@ -153,7 +149,7 @@ impl Redistancing {
             }
         }
         self.lay(&mut level.band);
-        for sweep in 0..SWEEPS {
+        for sweep in 0..=REACH as usize {
             if sweep % 2 == 0 {
                 level.band.iter().for_each(|span| self.solve(*span));
             } else {
@@ -232,14 +228,17 @@ impl Redistancing {
         }
         for &(x, y) in &self.crossings {
             // The ring is no part of a cell.
-            let cells =
-                (x - 1).saturating_sub(MARGIN) / CELL..=(x - 1 + MARGIN).min(width - 1) / CELL;
+            let cells = (x - 1).saturating_sub(REACH as usize) / CELL
+                ..=(x - 1 + REACH as usize).min(width - 1) / CELL;
             self.cells.row_mut(y)[cells].fill(true);
         }
         let mut near = vec![false; self.cells.width()];
-        for row in top.saturating_sub(MARGIN).max(1)..=(bottom + MARGIN).min(height) {
+        for row in top.saturating_sub(REACH as usize).max(1)..=(bottom + REACH as usize).min(height)
+        {
             near.fill(false);
-            for y in row.saturating_sub(MARGIN).max(top)..=(row + MARGIN).min(bottom) {
+            for y in
+                row.saturating_sub(REACH as usize).max(top)..=(row + REACH as usize).min(bottom)
+            {
                 for (n, &c) in near.iter_mut().zip(self.cells.row(y)) {
                     *n |= c;
                 }

@@ -10,7 +10,7 @@ mod surface;
 
 pub(crate) use candidates::Blocks;
 pub(crate) use curvature::{Prior, surface_energy};
-pub(crate) use normal_equations::{CUT, NormalEquations, Support};
+pub(crate) use normal_equations::{NormalEquations, Support, saturation};
 pub(crate) use planar::{Degree, PlanarFlow};
 pub(crate) use step::{Estimator, Free, Outcome, State, turn};
 pub(crate) use surface::Surface;

@@ -19,8 +19,11 @@ use super::rows::Rows;
 use super::step::State;
 use super::surface::Surface;
 
-/// κ: a residual of so many σ counts half its square.
-pub(crate) const CUT: f32 = 3.0;
+/// The largest cost of a residual, (κσ)² with κ = 2, grey levels².
+pub(crate) fn saturation(sigma: f32) -> f32 {
+    4.0 * sigma * sigma
+}
+
 /// Bins of the histogram from which σ comes, and bins a grey level.
 pub(super) const BINS: usize = 512;
 pub(super) const BINS_PER_LEVEL: f32 = 8.0;
@@ -92,7 +95,7 @@ impl NormalEquations {
         self.motion = Default::default();
         self.cost = 0.0;
         let mut histogram = [0u32; BINS];
-        let inverse = 1.0 / (CUT * problem.sigma).powi(2);
+        let inverse = 1.0 / saturation(problem.sigma);
         let mut lanes = [[[0.0f32; 8]; 6]; 6];
         for y in top..top + height {
             surface.row(level, y, left, &mut self.rows.rho);

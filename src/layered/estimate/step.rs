@@ -23,8 +23,6 @@ use crate::camera::{Camera, RigidMotion};
 use crate::layered::view::View;
 use crate::linalg::{Banded, solve, tangents};
 
-/// Pull of δT towards 0, in variances of the residual: a region may show nothing of it.
-const DAMPING: f64 = 1.0;
 /// Longest δT in a step, as a share of |T|.
 const LONGEST: f64 = 0.5;
 
@@ -316,7 +314,8 @@ fn motion_step(
         for j in (0..5).filter(|&j| is_free(j)) {
             a[i][j] = reduced[i][j];
         }
-        a[i][i] += 1e-6 * full[i][i] + 1e-9 + if i < 2 { DAMPING * variance } else { 0.0 };
+        // A region may show nothing of δT.
+        a[i][i] += 1e-6 * full[i][i] + 1e-9 + if i < 2 { variance } else { 0.0 };
         b[i] = -reduced[i][5];
     }
     let step = solve(&a, &b).unwrap_or_default();

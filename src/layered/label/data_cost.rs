@@ -8,20 +8,14 @@
 //! of a pixel would be favoured. Grey levels². A pixel that leaves the frame says nothing of who owns it: it is charged
 //! [`LEAVES`] of the largest cost.
 
+use super::super::estimate::saturation;
 use super::super::region::Region;
 use super::super::scale::Scale;
 use crate::grid::Grid;
 use crate::window::Window;
 
-/// κ: a residual of so many σ counts half its square.
-const CUT: f32 = 2.0;
 /// What a pixel that leaves the frame is charged, in units of the largest cost.
 const LEAVES: f32 = 0.6;
-
-/// The largest cost, (κσ)², grey levels².
-pub(crate) fn saturation(sigma: f32) -> f32 {
-    (CUT * sigma).powi(2)
-}
 
 #[inline(always)]
 fn cost(e: f32, most: f32) -> f32 {

@@ -12,9 +12,8 @@
 //! from warp to warp: first what the start has wrong is smoothed away, then what is smooth is made smooth, while
 //! creases and steps are kept. From the third warp on, pixels near steps may change sides, see [`settle`].
 //!
-//! The first three warps change T (|T| held) and ω too, by one Gauss–Newton step with a change of ρ eliminated in each
-//! 4×4 pixels. Pixels that are covered or leave the frame say nothing; those that leave continue what is seen. There are
-//! six warps.
+//! The first half of the warps change T (|T| held) and ω too, by one Gauss–Newton step with a change of ρ eliminated in each
+//! 4×4 pixels. Pixels that are covered or leave the frame say nothing; those that leave continue what is seen.
 
 use super::boundaries::settle;
 use super::hidden::{continue_outside, hidden};
@@ -29,8 +28,6 @@ use crate::layered::view::View;
 
 /// Warps.
 const WARPS: usize = 6;
-/// Warps that change the motion.
-const MOTION_WARPS: usize = 3;
 /// λ at the first and the last warp, 1/px².
 const SMOOTHNESS: [f32; 2] = [30.0, 5e4];
 /// δ at the first and the last warp, px.
@@ -45,8 +42,6 @@ const SHIFTS: [f32; 3] = [1.0, 0.1, 1e-2];
 const COVERED: f32 = 0.7;
 /// Where ψ turns, in σ.
 const CLIP: f32 = 2.5;
-/// Farthest that x goes in a warp, px: beyond, the linearisation says nothing.
-const FARTHEST: f32 = 1.0;
 
 /// Depth and motion of one region.
 #[derive(Clone, Debug)]
@@ -76,7 +71,7 @@ pub fn refine(
             settle(scale, &view, support, &mut dense.rho, pixels, dense.sigma);
         }
         dense.look(&view, support, pixels);
-        if warp < MOTION_WARPS {
+        if 2 * warp < WARPS {
             let compared = &mut dense.compared;
             motion_step(compared, &view, &dense.rho, dense.sigma, &mut motion);
             view = View::of(&scale.camera, &motion);
@@ -152,7 +147,8 @@ impl<'a> Dense<'a> {
         self.lines
             .solve(&self.bending, &mut self.x, &self.pull, &shifts);
         for (r, &x) in self.rho.data_mut().iter_mut().zip(&self.x) {
-            let step = (x - *r * pixels).clamp(-FARTHEST, FARTHEST);
+            // Beyond a pixel the linearisation says nothing.
+            let step = (x - *r * pixels).clamp(-1.0, 1.0);
             *r += step / pixels;
         }
     }

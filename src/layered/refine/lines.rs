@@ -11,6 +11,7 @@
 //! sum. Where wx and wy are 0, lines are cut.
 
 use crate::grid::Grid;
+use crate::linalg::dot;
 
 /// The weights of the sum.
 pub struct Bending {
@@ -91,16 +92,16 @@ impl Lines {
             let beta = if k == 0 || curvature <= 0.0 {
                 0.0
             } else {
-                -(dot(&self.step, &self.applied) / curvature) as f32
+                -(long_dot(&self.step, &self.applied) / curvature) as f32
             };
             for (d, &s) in self.direction.iter_mut().zip(&self.step) {
                 *d = s + beta * *d;
             }
             let direction = std::mem::take(&mut self.direction);
             self.apply(bending, &direction, true);
-            curvature = dot(&direction, &self.applied);
+            curvature = long_dot(&direction, &self.applied);
             if curvature > 0.0 {
-                let length = (dot(&self.residual, &direction) / curvature) as f32;
+                let length = (long_dot(&self.residual, &direction) / curvature) as f32;
                 for (x, &d) in x.iter_mut().zip(&direction) {
                     *x += length * d;
                 }
@@ -265,26 +266,9 @@ fn transpose(from: &[f32], to: &mut [f32], width: usize, height: usize) {
 }
 
 /// Σ a b, in f64 over runs of single precision.
-fn dot(a: &[f32], b: &[f32]) -> f64 {
-    const LANES: usize = 8;
-    let mut total = 0.0;
-    for (a, b) in a.chunks(1024).zip(b.chunks(1024)) {
-        let mut sums = [0.0f32; LANES];
-        let (a8, b8) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-        let rest: f32 = a8
-            .remainder()
-            .iter()
-            .zip(b8.remainder())
-            .map(|(a, b)| a * b)
-            .sum();
-        for (a, b) in a8.zip(b8) {
-            for k in 0..LANES {
-                sums[k] += a[k] * b[k];
-            }
-        }
-        total += f64::from(rest) + sums.iter().map(|&s| f64::from(s)).sum::<f64>();
-    }
-    total
+fn long_dot(a: &[f32], b: &[f32]) -> f64 {
+    let runs = a.chunks(1024).zip(b.chunks(1024));
+    runs.map(|(a, b)| f64::from(dot(a, b))).sum()
 }
 
 #[cfg(test)]

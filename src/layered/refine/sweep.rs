@@ -18,10 +18,8 @@ use crate::layered::view::View;
 
 /// Fewest and most steps of depth.
 const LABELS: [usize; 2] = [32, 64];
-/// Steps a pixel of image motion.
-const LABELS_A_PIXEL: f32 = 2.0;
-/// A pixel is hidden behind another that is nearer by more than this many steps.
-const HIDDEN_STEPS: f32 = 2.0;
+/// Steps for each pixel of image motion.
+const STEPS_A_PIXEL: f32 = 2.0;
 /// Frames with more pixels than this are halved.
 const MOST_PIXELS: usize = 640 * 480;
 
@@ -127,7 +125,7 @@ fn sweep_whole(
         })
     };
     let raw = depth(&best);
-    let mask = hidden(&raw, &view, support, HIDDEN_STEPS * step);
+    let mask = hidden(&raw, &view, support, STEPS_A_PIXEL * step);
     let mut rho = depth(&median3(&best));
     fill(&mut rho, &mask);
     Sweep {
@@ -148,7 +146,7 @@ fn count_labels(view: &View, width: usize, height: usize, span: f32) -> usize {
     }
     let rank = speeds.len() * 9 / 10;
     let speed = *speeds.select_nth_unstable_by(rank, f32::total_cmp).1;
-    let wanted = (span * speed * LABELS_A_PIXEL) as usize;
+    let wanted = (span * speed * STEPS_A_PIXEL) as usize;
     wanted
         .div_ceil(16)
         .saturating_mul(16)
