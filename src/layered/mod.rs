@@ -14,6 +14,7 @@
 //! `solver.rs` is the one loop: for each scale *estimate* (`estimate/`: motion and surface from normal equations), *label*
 //! (`label/`: who owns which pixel), and on the finest scale *refine* (`refine/`: depth pixel by pixel where it has steps).
 
+mod approach;
 mod compose;
 mod discontinuities;
 mod estimate;

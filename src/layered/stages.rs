@@ -31,9 +31,9 @@ impl Layered {
         let (labels, offered) = (self.labels.data(), self.offered.data());
         for (k, region) in self.regions.iter_mut().enumerate() {
             let owns = |i: usize| usize::from(labels[i]) == k;
-            region.window = Window::around(width, height, 0, owns);
+            region.window = Window::around(width, height, owns);
             let reach = |i: usize| owns(i) || usize::from(offered[i]) == k;
-            region.reach = Window::around(width, height, 0, reach);
+            region.reach = Window::around(width, height, reach);
             region.fresh = false;
         }
     }

@@ -113,7 +113,7 @@ impl Layered {
 /// The window around a label.
 fn around(labels: &Grid<u8>, k: usize) -> Option<Window> {
     let data = labels.data();
-    Window::around(labels.width(), labels.height(), 0, |i| {
+    Window::around(labels.width(), labels.height(), |i| {
         usize::from(data[i]) == k
     })
 }

@@ -59,13 +59,10 @@ pub fn mild(draw: &Draw<'_>) -> Result<Sequence, Error> {
         part.pose.rotation = more * part.pose.rotation;
     }
     set_motion(stage, &courses, draw.displacement);
-    Ok(Sequence {
-        name: format!("mild-{}-{}", draw.base, draw.seed),
-        title: format!("{}, variant {}, from above", drawn.entry.title, draw.seed),
-        lesson: format!(
-            "Drawn at random, a background of little relief: {} pixels at most, noise of {} grey levels.",
-            draw.displacement, draw.noise_sigma
-        ),
-        ..drawn.filmed()?
-    })
+    drawn.filmed(
+        draw,
+        "mild-",
+        ", from above",
+        ", a background of little relief",
+    )
 }

@@ -46,16 +46,5 @@ pub fn passing(draw: &Draw<'_>) -> Result<Sequence, Error> {
         ..Course::default()
     };
     set_motion(stage, &[course], draw.displacement);
-    Ok(Sequence {
-        name: format!("passing-{}-{}", draw.base, draw.seed),
-        title: format!(
-            "{}, variant {}, filmed in passing",
-            drawn.entry.title, draw.seed
-        ),
-        lesson: format!(
-            "Drawn at random, one motion: {} pixels at most, noise of {} grey levels.",
-            draw.displacement, draw.noise_sigma
-        ),
-        ..drawn.filmed()?
-    })
+    drawn.filmed(draw, "passing-", ", filmed in passing", ", one motion")
 }

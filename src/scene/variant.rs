@@ -43,16 +43,7 @@ const MOST_NOISE: f64 = 50.0;
 /// [`Error::Choice`] for another base, [`Error::Option`] for a noise or displacement out of range,
 /// [`Error::Size`] outside the limits of a frame.
 pub fn variant(draw: &Draw<'_>) -> Result<Sequence, Error> {
-    let drawn = Drawn::new(draw)?;
-    Ok(Sequence {
-        name: format!("{}-{}", draw.base, draw.seed),
-        title: format!("{}, variant {}", drawn.entry.title, draw.seed),
-        lesson: format!(
-            "Drawn at random: {} pixels of motion at most, noise of {} grey levels.",
-            draw.displacement, draw.noise_sigma
-        ),
-        ..drawn.filmed()?
-    })
+    Drawn::new(draw)?.filmed(draw, "", "", "")
 }
 
 /// A stage drawn from a seed, with all that filming it takes.
@@ -117,13 +108,33 @@ impl Drawn {
         })
     }
 
-    /// Two frames of the stage, under its base's name.
+    /// Two frames of the stage: what its name begins with, how it was filmed, and what that is an example of.
     ///
     /// # Errors
     /// Those of [`Film`].
-    pub fn filmed(self) -> Result<Sequence, Error> {
+    pub fn filmed(
+        self,
+        draw: &Draw<'_>,
+        prefix: &str,
+        how: &str,
+        example: &str,
+    ) -> Result<Sequence, Error> {
         let entry = self.entry;
-        Ok(self.film(2)?.sequence(&entry))
+        let Draw {
+            base,
+            seed,
+            noise_sigma,
+            displacement,
+            ..
+        } = draw;
+        Ok(Sequence {
+            name: format!("{prefix}{base}-{seed}"),
+            title: format!("{}, variant {seed}{how}", entry.title),
+            lesson: format!(
+                "Drawn at random{example}: {displacement} pixels of motion at most, noise of {noise_sigma} grey levels."
+            ),
+            ..self.film(2)?.sequence(&entry)
+        })
     }
 
     /// `frames` frames of the stage, each with noise of its own.

@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::super::scale::Scale;
 use super::normal_equations::Support;
 use super::planar::PlanarFlow;
-use super::step::turn;
+use super::state::turn;
 use crate::linalg::{hemisphere, solve};
 use glam::DMat3;
 

@@ -33,12 +33,7 @@ pub(crate) fn surface_energy(surface: &Surface, prior: &Prior, sigma: f32) -> f6
     let s = surface.spacing as f32;
     let edge = prior.epsilon as f32 * s;
     let mut sum = 0.0;
-    for_each_curvature(surface, |nodes, factors, share| {
-        let d: f32 = nodes
-            .iter()
-            .zip(factors)
-            .map(|(&n, f)| f * surface.rho[n])
-            .sum();
+    for_each_curvature(surface, |_, _, share, d| {
         let square = match prior.diffusion {
             Diffusion::Isotropic => d * d,
             Diffusion::Anisotropic => 2.0 * edge * edge * ((1.0 + (d / edge).powi(2)).sqrt() - 1.0),
@@ -60,21 +55,29 @@ pub(super) fn curvature_weight(d: f32, spacing: usize, prior: &Prior) -> f32 {
     }
 }
 
-/// Calls with the control points, factors and share of each second difference: ρ_xx, ρ_yy and, twice, ρ_xy.
-pub(super) fn for_each_curvature(surface: &Surface, mut each: impl FnMut(&[usize], &[f32], f32)) {
+/// Calls with the control points, factors, share and value of each second difference: ρ_xx, ρ_yy and, twice, ρ_xy.
+pub(super) fn for_each_curvature(
+    surface: &Surface,
+    mut each: impl FnMut(&[usize], &[f32], f32, f32),
+) {
+    let mut call = |nodes: &[usize], factors: &[f32], share| {
+        let terms = nodes.iter().zip(factors);
+        let d = terms.map(|(&n, f)| f * surface.rho[n]).sum();
+        each(nodes, factors, share, d);
+    };
     let node = |i, j| surface.node(i, j);
     for i in 0..surface.columns {
         for j in 0..surface.rows {
             if i > 0 && i + 1 < surface.columns {
                 let three = [node(i - 1, j), node(i, j), node(i + 1, j)];
-                each(&three, &[1.0, -2.0, 1.0], 1.0);
+                call(&three, &[1.0, -2.0, 1.0], 1.0);
             }
             if j > 0 && j + 1 < surface.rows {
                 let three = [node(i, j - 1), node(i, j), node(i, j + 1)];
-                each(&three, &[1.0, -2.0, 1.0], 1.0);
+                call(&three, &[1.0, -2.0, 1.0], 1.0);
             }
             if i + 1 < surface.columns && j + 1 < surface.rows {
-                each(&surface.corners(i, j), &[1.0, -1.0, -1.0, 1.0], 2.0);
+                call(&surface.corners(i, j), &[1.0, -1.0, -1.0, 1.0], 2.0);
             }
         }
     }

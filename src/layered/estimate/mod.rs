@@ -5,6 +5,7 @@ mod curvature;
 mod normal_equations;
 mod planar;
 mod rows;
+mod state;
 mod step;
 mod surface;
 
@@ -12,5 +13,6 @@ pub(crate) use candidates::Blocks;
 pub(crate) use curvature::{Prior, surface_energy};
 pub(crate) use normal_equations::{NormalEquations, Support, saturation};
 pub(crate) use planar::{Degree, PlanarFlow};
-pub(crate) use step::{Estimator, Free, Outcome, State, turn};
+pub(crate) use state::{State, turn};
+pub(crate) use step::{Estimator, Free, Outcome};
 pub(crate) use surface::Surface;

@@ -16,7 +16,7 @@ use crate::window::Window;
 
 use super::super::models::Problem;
 use super::rows::Rows;
-use super::step::State;
+use super::state::State;
 use super::surface::Surface;
 
 /// The largest cost of a residual, (κσ)² with κ = 2, grey levels².

@@ -13,26 +13,17 @@
 //!
 //! A step that raises E is taken back, and ends the iteration.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::DVec3;
 
 use super::super::models::Problem;
 use super::curvature::{Prior, curvature_weight, for_each_curvature, pull, surface_energy};
 use super::normal_equations::NormalEquations;
+use super::state::{State, turn};
 use super::surface::{RHO, Surface};
-use crate::camera::{Camera, RigidMotion};
-use crate::layered::view::View;
-use crate::linalg::{Banded, solve, tangents};
+use crate::linalg::{Banded, solve};
 
 /// Longest δT in a step, as a share of |T|.
 const LONGEST: f64 = 0.5;
-
-/// What is estimated of a region.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct State {
-    pub translation: DVec3,
-    pub rotation: DMat3,
-    pub surface: Surface,
-}
 
 /// What may change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,47 +58,6 @@ pub(crate) struct Estimator {
     solved: Vec<[f32; 6]>,
     /// What a step started from.
     before: State,
-}
-
-impl State {
-    /// Nothing moves; a flat surface.
-    pub fn still(surface: Surface) -> Self {
-        Self {
-            translation: DVec3::ZERO,
-            rotation: DMat3::IDENTITY,
-            surface,
-        }
-    }
-
-    /// Where it leads, seen by a camera.
-    pub fn view(&self, camera: &Camera) -> View {
-        View::new(camera, self.rotation, self.translation)
-    }
-
-    /// Two directions perpendicular to T and as long.
-    pub fn tangent(&self) -> [DVec3; 2] {
-        let length = self.translation.length();
-        let direction = self.translation.try_normalize();
-        direction.map_or_else(Default::default, |t| tangents(t).map(|b| b * length))
-    }
-
-    /// T and ω.
-    pub fn motion(&self) -> RigidMotion {
-        RigidMotion {
-            translation: self.translation,
-            rotation: self.omega(),
-        }
-    }
-
-    /// ω, radians per frame.
-    pub fn omega(&self) -> DVec3 {
-        DQuat::from_mat3(&self.rotation).to_scaled_axis()
-    }
-}
-
-/// The matrix that turns by ω.
-pub(crate) fn turn(omega: DVec3) -> DMat3 {
-    DMat3::from_quat(DQuat::from_scaled_axis(omega))
 }
 
 impl Estimator {
@@ -207,12 +157,7 @@ impl Estimator {
         }
         let band = &mut self.band;
         let cross = &mut self.cross;
-        for_each_curvature(surface, |nodes, factors, share| {
-            let d: f32 = nodes
-                .iter()
-                .zip(factors)
-                .map(|(&n, f)| f * surface.rho[n])
-                .sum();
+        for_each_curvature(surface, |nodes, factors, share, d| {
             let weight = share * curvature_weight(d, surface.spacing, prior);
             for (p, &node) in nodes.iter().enumerate() {
                 for (q, &other) in nodes[..=p].iter().enumerate() {

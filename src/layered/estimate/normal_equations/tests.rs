@@ -1,7 +1,7 @@
 use glam::DVec3;
 
 use super::super::curvature::Prior;
-use super::super::step::turn;
+use super::super::state::turn;
 use super::*;
 use crate::camera::Camera;
 use crate::frames::{Frame, FramePair, Lighting};
