@@ -20,17 +20,14 @@ use crate::linalg::Banded;
 use crate::options::Diffusion;
 use crate::window::Window;
 
-/// Steps of depth in a sweep.
-const STEPS: usize = 64;
-/// Regions that labels are shared out among.
-const REGIONS: usize = 3;
-
 /// Enters each kernel: its name, bytes and flops a pixel, and itself.
 pub(crate) fn enter(
     frames: [&Grid<f32>; 2],
     mut add: impl FnMut(&'static str, f64, f64, Box<dyn FnMut()>),
 ) {
     let (width, height) = (frames[0].width(), frames[0].height());
+    // Steps of depth in a sweep, and regions that labels are shared out among.
+    let (steps, regions) = (64, 3);
     let whole = Window::whole(width, height);
     let camera = Camera {
         focal: width as f64,
@@ -133,10 +130,10 @@ pub(crate) fn enter(
     );
 
     let mut memory = Memory::default();
-    memory.fit(width, height, REGIONS);
-    let labels = Grid::from_fn(width, height, |x, _| (x * REGIONS / width) as u8);
+    memory.fit(width, height, regions);
+    let labels = Grid::from_fn(width, height, |x, _| (x * regions / width) as u8);
     // Two boxes both ways are twenty sums, for each region.
-    let (bytes, flops) = (1.0 + 8.0 * REGIONS as f64, 26.0 * REGIONS as f64);
+    let (bytes, flops) = (1.0 + 8.0 * regions as f64, 26.0 * regions as f64);
     add(
         "outlines of 3 regions",
         bytes,
@@ -158,23 +155,23 @@ pub(crate) fn enter(
 
     let pair = frames.map(Grid::clone);
     let (view, support) = (state.view(&camera), Grid::new(width, height, true));
-    let sweep = move || volume([&pair[0], &pair[1]], &view, &support, STEPS, 0.0, 0.03);
+    let sweep = move || volume([&pair[0], &pair[1]], &view, &support, steps, 0.0, 0.03);
     let (costs, guide) = (sweep(), frames[0].clone());
-    let steps = STEPS as f64;
+    let all = steps as f64;
     add(
         "sweep cost, 64 depths",
-        8.0 + steps,
-        30.0 * steps,
+        8.0 + all,
+        30.0 * all,
         Box::new(move || {
             black_box(sweep());
         }),
     );
     add(
         "semi-global, 64 depths",
-        4.0 + 3.0 * steps,
-        32.0 * steps,
+        4.0 + 3.0 * all,
+        32.0 * all,
         Box::new(move || {
-            black_box(aggregate(&costs, STEPS, &guide));
+            black_box(aggregate(&costs, steps, &guide));
         }),
     );
 }

@@ -10,14 +10,13 @@ use super::solver::{Layered, Phase};
 use crate::motion_model::MotionModel;
 use crate::options::Options;
 use crate::solver::Weights;
+use crate::spread::LEAST_SIGMA;
 use crate::window::Window;
 
 /// What curvature is charged while motion is found, and for depth, in variances of the residual, px².
 pub(super) const STIFFNESS: [f64; 2] = [1e5, 1e6];
 /// Gauss–Newton steps of motion with depth, and of depth alone.
 const STEPS: usize = 2;
-/// Least σ in grey levels: frames of 8 bits are not known better, smoothed as they are.
-const LEAST_SIGMA: f32 = 0.4;
 /// What a pixel of curve costs in units of the largest cost of a pixel: on coarse scales and in the first pass of the
 /// finest, so that curves do not stick, and at last.
 const PULL: [f32; 3] = [1.0, 2.0, 4.0];
@@ -74,7 +73,9 @@ impl Layered {
     pub(super) fn measure_sigma(&mut self, options: &Options) {
         self.improve(STIFFNESS[0], 1, true, options);
         let owned = self.regions.iter().filter(|r| r.window.is_some());
-        self.sigma = owned.map(|r| r.outcome.spread).fold(LEAST_SIGMA, f32::max);
+        self.sigma = owned
+            .map(|r| r.outcome.spread)
+            .fold(LEAST_SIGMA as f32, f32::max);
         self.regions.iter_mut().for_each(|r| r.fresh = false);
     }
 
@@ -175,7 +176,7 @@ impl Layered {
             rigid_residual(scale, level, region, residuals);
         }
         if !matches!(self.phase, Phase::Rigid(done) if done > 0) {
-            self.label_sigma = self.memory.spread(&self.labels).max(LEAST_SIGMA);
+            self.label_sigma = self.memory.spread(&self.labels).max(LEAST_SIGMA as f32);
         }
         self.memory.charge(self.label_sigma);
         let occlusion = (options.occlusion && self.regions.len() > 1).then(|| {
@@ -206,7 +207,7 @@ impl Layered {
         for (region, costs) in self.regions.iter().zip(&mut self.memory.costs) {
             rigid_residual(scale, self.level, region, costs);
         }
-        self.label_sigma = self.memory.spread(&self.labels).max(LEAST_SIGMA);
+        self.label_sigma = self.memory.spread(&self.labels).max(LEAST_SIGMA as f32);
         self.memory.charge(self.label_sigma);
     }
 

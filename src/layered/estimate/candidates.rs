@@ -16,8 +16,8 @@ use glam::DMat3;
 
 /// Directions that are tried.
 const DIRECTIONS: usize = 240;
-/// Cosine of the least angle between two candidates.
-const APART: f64 = 0.9;
+/// Cosine of the angle from which a direction of T is another.
+pub(crate) const OTHER_DIRECTION: f64 = 0.9;
 /// Blocks of large and of small regions, pixels; a region is small below `SMALL` pixels.
 const BLOCK: [usize; 2] = [8, 6];
 const SMALL: usize = 6000;
@@ -68,7 +68,7 @@ impl Blocks {
         for candidate in tried {
             let direction = candidate.translation.normalize_or_zero();
             let far = |other: &Candidate| {
-                other.translation.normalize_or_zero().dot(direction).abs() < APART
+                other.translation.normalize_or_zero().dot(direction).abs() < OTHER_DIRECTION
             };
             if found.len() < most && found.iter().all(far) {
                 found.push(candidate);

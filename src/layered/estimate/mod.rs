@@ -9,7 +9,7 @@ mod state;
 mod step;
 mod surface;
 
-pub(crate) use candidates::Blocks;
+pub(crate) use candidates::{Blocks, OTHER_DIRECTION};
 pub(crate) use curvature::{Prior, surface_energy};
 pub(crate) use normal_equations::{NormalEquations, Support, saturation};
 pub(crate) use planar::{Degree, PlanarFlow};

@@ -24,8 +24,7 @@ pub(crate) fn saturation(sigma: f32) -> f32 {
     4.0 * sigma * sigma
 }
 
-/// Bins of the histogram from which σ comes, and bins a grey level.
-pub(super) const BINS: usize = 512;
+/// Bins a grey level of the histogram from which σ comes.
 pub(super) const BINS_PER_LEVEL: f32 = 8.0;
 
 /// Which pixels belong: those of `labels` that are `label`, inside `window`.
@@ -94,7 +93,7 @@ impl NormalEquations {
             .resize((surface.columns - 1) * (surface.rows - 1), Cell::default());
         self.motion = Default::default();
         self.cost = 0.0;
-        let mut histogram = [0u32; BINS];
+        let mut histogram = [0u32; 512];
         let inverse = 1.0 / saturation(problem.sigma);
         let mut lanes = [[[0.0f32; 8]; 6]; 6];
         for y in top..top + height {

@@ -3,7 +3,7 @@
 //! Symbols are those of `normal_equations.rs`. Quantity by quantity, so that loops run over slices of one length.
 
 use super::super::scale::Scale;
-use super::normal_equations::{BINS, BINS_PER_LEVEL, Support};
+use super::normal_equations::{BINS_PER_LEVEL, Support};
 use crate::layered::view::View;
 
 /// One row of pixels.
@@ -86,7 +86,7 @@ impl Rows {
 
     /// Residuals and the second frame's gradient; weight 1 where there is something to compare.
     pub fn compare(&mut self, scale: &Scale, support: &Support, y: usize, histogram: &mut [u32]) {
-        let n = self.rho.len();
+        let (n, last) = (self.rho.len(), histogram.len() - 1);
         let left = support.window.left;
         let (f, cx, cy) = (
             scale.camera.focal as f32,
@@ -106,7 +106,7 @@ impl Rows {
                 let [value, across, down] = scale.second.with_gradient(x, y);
                 let residual = value - first[i];
                 let bin = (residual.abs() * BINS_PER_LEVEL) as usize;
-                histogram[bin.min(BINS - 1)] += 1;
+                histogram[bin.min(last)] += 1;
                 self.residual[i] = residual;
                 gx[i] = across;
                 gy[i] = down;

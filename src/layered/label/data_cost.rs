@@ -11,6 +11,7 @@
 use super::super::estimate::saturation;
 use super::super::region::Region;
 use super::super::scale::Scale;
+use super::memory::WINDOW;
 use crate::grid::Grid;
 use crate::window::Window;
 
@@ -87,19 +88,19 @@ pub(crate) fn planar_cost(scale: &Scale, region: &Region, sigma: f32, out: &mut 
     }
 }
 
-/// What it costs to match by chance: the mean cost of the first frame against itself, [`SHIFT`] pixels away.
+/// What it costs to match by chance: the mean cost of the first frame against itself, a window away.
 pub(super) fn chance_cost(scale: &Scale, sigma: f32, out: &mut Grid<f32>) {
     let (most, first) = (saturation(sigma), &scale.plain);
-    let (width, height) = (scale.width, scale.height);
+    let (width, height, shift) = (scale.width, scale.height, 2 * WINDOW + 1);
     for y in 0..height {
         let row = first.row(y);
-        let above = first.row(y.saturating_sub(SHIFT));
-        let below = first.row((y + SHIFT).min(height - 1));
+        let above = first.row(y.saturating_sub(shift));
+        let below = first.row((y + shift).min(height - 1));
         for (x, out) in out.row_mut(y).iter_mut().enumerate() {
             let here = row[x];
             let around = [
-                row[x.saturating_sub(SHIFT)],
-                row[(x + SHIFT).min(width - 1)],
+                row[x.saturating_sub(shift)],
+                row[(x + shift).min(width - 1)],
                 above[x],
                 below[x],
             ];
@@ -107,9 +108,6 @@ pub(super) fn chance_cost(scale: &Scale, sigma: f32, out: &mut Grid<f32>) {
         }
     }
 }
-
-/// Pixels between what matches by chance only.
-const SHIFT: usize = 7;
 
 /// The part of a window of the finest scale that lies on scale `level`, in its pixels.
 pub(crate) fn inside(window: &Window, level: usize, scale: &Scale) -> Window {

@@ -10,7 +10,7 @@
 use crate::grid::Grid;
 use crate::layered::scale::Scale;
 use crate::layered::view::View;
-use crate::spread::spread;
+use crate::spread::{LEAST_SIGMA, spread};
 
 /// What each pixel says at the present depth and motion; 0 weight where it says nothing.
 pub struct Linearisation {
@@ -41,11 +41,11 @@ impl Linearisation {
         ]
     }
 
-    /// Robust standard deviation of e over what is compared, at least half a grey level.
+    /// Robust standard deviation of e over what is compared.
     pub fn spread(&self) -> f32 {
         let compared = self.residual.iter().zip(&self.compared).filter(|p| *p.1);
         let mut residuals: Vec<f32> = compared.map(|(e, _)| *e).collect();
-        spread(&mut residuals).max(0.5) as f32
+        spread(&mut residuals).max(LEAST_SIGMA) as f32
     }
 
     /// Compares the frames at depth `rho` for the pixels that are in `support` and not `hidden`.
