@@ -175,42 +175,22 @@ fn minimum(sums: &[u16]) -> f32 {
     k as f32 + shift
 }
 
-/// The median of the 3×3 pixels around each, the border left as it is.
+/// The median of the 3×3 pixels around each, the border left as it is: of the columns' medians the middle one, unless all
+/// least or all greatest values of columns say otherwise.
 fn median3(field: &Grid<f32>) -> Grid<f32> {
-    // Pairs to put in order, after which the fifth of nine is their median.
-    const ORDER: [(usize, usize); 19] = [
-        (1, 2),
-        (4, 5),
-        (7, 8),
-        (0, 1),
-        (3, 4),
-        (6, 7),
-        (1, 2),
-        (4, 5),
-        (7, 8),
-        (0, 3),
-        (5, 8),
-        (4, 7),
-        (3, 6),
-        (1, 4),
-        (2, 5),
-        (4, 7),
-        (4, 2),
-        (6, 4),
-        (4, 2),
-    ];
-    let (width, height) = (field.width(), field.height());
+    let least = |v: [f32; 3]| v[0].min(v[1]).min(v[2]);
+    let most = |v: [f32; 3]| v[0].max(v[1]).max(v[2]);
+    let middle = |v: [f32; 3]| v[0].min(v[1]).max(v[0].max(v[1]).min(v[2]));
     let mut out = field.clone();
-    for y in 1..height - 1 {
-        for x in 1..width - 1 {
-            let mut v = [0.0f32; 9];
-            for (j, three) in v.chunks_exact_mut(3).enumerate() {
-                three.copy_from_slice(&field.row(y + j - 1)[x - 1..x + 2]);
-            }
-            for (a, b) in ORDER {
-                (v[a], v[b]) = (v[a].min(v[b]), v[a].max(v[b]));
-            }
-            out[(x, y)] = v[4];
+    for y in 1..field.height() - 1 {
+        for x in 1..field.width() - 1 {
+            let columns = [x - 1, x, x + 1].map(|x| [y - 1, y, y + 1].map(|y| field[(x, y)]));
+            let [low, mid, high] = [
+                most(columns.map(least)),
+                middle(columns.map(middle)),
+                least(columns.map(most)),
+            ];
+            out[(x, y)] = middle([low, mid, high]);
         }
     }
     out

@@ -62,3 +62,19 @@ fn halves_large_frames() {
     assert!(width * height > MOST_PIXELS);
     assert!(share_right(width, height, &Grid::new(width, height, true)) > 0.95);
 }
+
+#[test]
+fn a_median_is_the_fifth_of_nine() {
+    let field = Grid::from_fn(12, 9, |x, y| ((x * 37 + y * 101 + x * x * y) % 71) as f32);
+    let found = median3(&field);
+    for y in 1..8 {
+        for x in 1..11 {
+            let mut nine: Vec<f32> = (0..9)
+                .map(|i| field[(x + i % 3 - 1, y + i / 3 - 1)])
+                .collect();
+            nine.sort_by(f32::total_cmp);
+            assert_eq!(found[(x, y)], nine[4]);
+        }
+    }
+    assert_eq!(found[(0, 4)], field[(0, 4)]);
+}
