@@ -199,7 +199,14 @@ fn nothing_is_sure_of_a_mirror_image_through_a_long_lens() {
 #[test]
 fn nothing_is_sure_of_what_is_worse_than_flat() {
     for seed in 31..41 {
-        let sequence = scene::variant("crowd", seed, 0.0, 4.0, SIZE[0], SIZE[1]).unwrap();
+        let sequence = scene::variant(&Draw {
+            base: "crowd",
+            seed,
+            noise_sigma: 0.0,
+            displacement: 4.0,
+            size: SIZE,
+        })
+        .unwrap();
         let solver = solved(&sequence);
         let (found, scores) = (solver.interpretation(), scores(&solver, &sequence));
         for k in 0..sequence.truth.regions() {
