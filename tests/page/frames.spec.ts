@@ -364,6 +364,7 @@ test("a focal length typed while one is looked for is kept", async ({ opened: pa
 test("the focal length is found where the frames tell it, and kept where they do not", async ({
   opened: page,
 }) => {
+  test.slow();
   const find = page.getByRole("button", { name: "Find f" });
   const field = page.getByLabel("Focal length f, px");
   const usual = await field.inputValue();
