@@ -4,7 +4,7 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::scene::{self, Draw, Sequence};
-use relievo::{Error, Shape};
+use relievo::{Error, MotionModel, Shape};
 
 const W: usize = 96;
 const H: usize = 72;
@@ -211,6 +211,16 @@ fn any_size_within_the_limits_will_do() {
             ));
         }
     }
+}
+
+#[test]
+fn the_truth_tells_models() {
+    let truth = scene::render("blocks", 160, 120).unwrap().truth;
+    use MotionModel::{Still, Translation};
+    assert_eq!(truth.models(), [Still, Translation, Translation]);
+    // In other units of depth the same motion is seen.
+    let scaled = truth.scaled(&[3.0, 0.2, 7.0]);
+    assert_eq!(scaled.models(), truth.models());
 }
 
 #[test]
