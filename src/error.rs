@@ -50,6 +50,14 @@ pub enum Error {
         /// What fits, in millions of pixels.
         most: usize,
     },
+    /// Depth asked for where regions move as planes still.
+    #[error(
+        "there is no depth yet: regions move as planes until their outlines stand still; take motion and curves, or whole passes, {most} at most"
+    )]
+    Planes {
+        /// Passes before depth is looked for, at most.
+        most: usize,
+    },
     /// A flat array that does not fill the picture it is said to be.
     #[error("{what} of {width}×{height} pixels needs {expected} values, but {found} were given")]
     Length {

@@ -82,11 +82,6 @@ impl<T: Copy> Grid<T> {
     }
 
     /// All values in row order.
-    pub fn into_vec(self) -> Vec<T> {
-        self.data
-    }
-
-    /// All values in row order.
     pub fn data(&self) -> &[T] {
         &self.data
     }

@@ -5,6 +5,7 @@
 
 use crate::camera::{Camera, RigidMotion};
 use crate::grid::Grid;
+use crate::motion_model::MotionModel;
 
 /// Least and greatest depth that is told, in units in which a region's mean 1/Z is 1.
 pub const NEAREST_FARTHEST: [f32; 2] = [0.02, 50.0];
@@ -41,6 +42,29 @@ impl Interpretation {
     /// Number of regions, the background included.
     pub fn regions(&self) -> usize {
         self.motions.len()
+    }
+
+    /// The model of each region's motion as far as it shows, T being taken in units in which the region's mean 1/Z is 1.
+    pub fn models(&self) -> Vec<MotionModel> {
+        let mut sums = vec![(0.0, 0usize); self.regions()];
+        for (&k, &z) in self.labels.data().iter().zip(self.depth.data()) {
+            if let Some((sum, count)) = sums.get_mut(usize::from(k))
+                && z.is_finite()
+                && z > 0.0
+            {
+                *sum += f64::from(z).recip();
+                *count += 1;
+            }
+        }
+        let each = self.motions.iter().zip(sums);
+        each.map(|(motion, (sum, count))| {
+            let scaled = RigidMotion {
+                translation: motion.translation * (sum / count.max(1) as f64),
+                ..*motion
+            };
+            MotionModel::seen(&self.camera, &scaled)
+        })
+        .collect()
     }
 
     /// The same with region k's depth multiplied by `factors[k]` (1 where `factors` is too short) and

@@ -72,6 +72,7 @@ pub mod paper;
 pub mod scene;
 pub mod score;
 pub mod solver;
+mod spread;
 mod srgb;
 pub mod view;
 pub mod window;

@@ -1,11 +1,11 @@
 //! Motion models: which of still, rotation, translation and full a motion is, as far as it shows.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::camera::{Camera, RigidMotion};
 
 /// The motion model of a region.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum MotionModel {

@@ -6,6 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::camera::RigidMotion;
 use crate::error::Error;
+use crate::motion_model::MotionModel;
 
 /// The contents of motion.json.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -32,6 +33,9 @@ pub struct RegionMotion {
     pub translation: [f64; 3],
     /// ω = (w1, w2, w3).
     pub rotation: [f64; 3],
+    /// The motion model; files of others may not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model: Option<MotionModel>,
 }
 
 /// Seconds spent, in all and in each of the three steps.
@@ -48,14 +52,16 @@ pub struct Seconds {
 }
 
 impl RegionMotion {
-    /// The motions of regions 0, 1, … as entries.
-    pub fn list(motions: &[RigidMotion]) -> Vec<Self> {
-        let entry = |(k, m): (usize, &RigidMotion)| Self {
-            label: k as u8,
-            translation: m.translation.to_array(),
-            rotation: m.rotation.to_array(),
+    /// The motions of regions 0, 1, … and their models as entries.
+    pub fn list(motions: &[RigidMotion], models: &[MotionModel]) -> Vec<Self> {
+        let regions = (0..).zip(motions.iter().zip(models));
+        let entry = |(label, (motion, model)): (u8, (&RigidMotion, &MotionModel))| Self {
+            label,
+            translation: motion.translation.to_array(),
+            rotation: motion.rotation.to_array(),
+            model: Some(*model),
         };
-        motions.iter().enumerate().map(entry).collect()
+        regions.map(entry).collect()
     }
 
     /// The motion itself.

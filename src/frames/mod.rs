@@ -11,5 +11,5 @@ pub use derivatives::{Derivatives, gradient};
 pub use frame::{Frame, FramePair, MAX_SIDE, MIN_SIDE};
 pub use gaussian::blur;
 pub use lighting::Lighting;
-pub use pyramid::{doubled, halved, halved_camera};
-pub use spline::Spline;
+pub use pyramid::{halved, halved_camera};
+pub(crate) use spline::Spline;

@@ -6,12 +6,13 @@
 //! surface: a surface through the depths found is estimated anew under the motion found, and stays unless depth pixel by
 //! pixel still costs less than [`GAIN`] of it, or the two are more than a pixel apart over much of the region ([`APART`]).
 
-use super::estimate::{CUT, State, Surface};
-use super::label::saturation;
+use super::estimate::{State, Surface, saturation};
 use super::refine::{Refined, match_range, refine, sweep};
+use super::scale::Scale;
 use super::solver::Layered;
 use super::stages::STIFFNESS;
 use crate::camera::RigidMotion;
+use crate::frames::blur;
 use crate::grid::Grid;
 use crate::init::{epipolar_motion, matches};
 use crate::motion_model::MotionModel;
@@ -57,11 +58,13 @@ impl Layered {
         let wanted: Vec<usize> = (0..self.regions.len())
             .filter(|&k| self.is_unexplained(k))
             .collect();
-        // Not in each other's light: matches and the sweep compare frames less their local mean.
+        // Not in each other's light: what one frame alone shows is taken for a change of light, which turns depth.
         let pair = self.pair.clone();
         let frames = [&pair.first().grey, &pair.second().grey];
         let all = matches(frames[0], frames[1]);
         let camera = self.scales[0].camera;
+        let smooth = frames.map(|frame| blur(frame, self.smoothing));
+        let scale = Scale::new(smooth, frames.map(Grid::clone), camera);
         for k in wanted {
             let support = self.labels.map(|l| usize::from(l) == k);
             let own: Vec<_> = (all.iter().copied())
@@ -74,7 +77,7 @@ impl Layered {
                 continue;
             };
             let swept = sweep(frames, &camera, &found.motion, &support, range);
-            let refined = refine(frames, &camera, &swept.motion, &support, swept.rho);
+            let refined = refine(&scale, &swept.motion, &support, swept.rho);
             let before = self.surface_cost(k);
             let after = self.mean_cost(k, &refined.motion, |x, y| refined.rho[(x, y)]);
             if after < GAIN[0] * before {
@@ -112,15 +115,15 @@ impl Layered {
     fn share_apart(&self, k: usize, other: &State, rho: &Grid<f32>) -> f64 {
         let scale = &self.scales[0];
         let own = &self.regions[k].state;
-        let targets = [own, other].map(|state| state.pose().target(scale));
+        let views = [own, other].map(|state| state.view(&scale.camera));
         let (mut all, mut apart) = (0usize, 0usize);
         for y in 0..scale.height {
             for x in 0..scale.width {
                 if usize::from(self.labels[(x, y)]) != k {
                     continue;
                 }
-                let (a, b) = targets[0].of(x, y, own.surface.at(x as f32, y as f32));
-                let (c, d) = targets[1].of(x, y, rho[(x, y)]);
+                let [a, b] = views[0].target(x, y, own.surface.at(x as f32, y as f32));
+                let [c, d] = views[1].target(x, y, rho[(x, y)]);
                 all += 1;
                 apart += usize::from((a - c).hypot(b - d) > 1.0);
             }
@@ -140,7 +143,7 @@ impl Layered {
         let mut state = self.regions[k].state.clone();
         state.translation = motion.translation;
         state.rotation = motion.matrix();
-        let target = state.pose().target(scale);
+        let view = state.view(&scale.camera);
         let Some(Window {
             left,
             top,
@@ -150,16 +153,16 @@ impl Layered {
         else {
             return f64::INFINITY;
         };
-        let most = (CUT * self.sigma).powi(2);
+        let most = saturation(self.sigma);
         let (mut sum, mut count) = (0.0, 0usize);
         for y in top..top + height {
             for x in left..left + width {
                 if usize::from(self.labels[(x, y)]) != k {
                     continue;
                 }
-                let (to_x, to_y) = target.of(x, y, rho(x, y));
+                let [to_x, to_y] = view.target(x, y, rho(x, y));
                 let cost = if scale.contains(to_x, to_y) {
-                    let e = scale.brightness(to_x, to_y) - scale.first[(x, y)];
+                    let e = scale.second.at(to_x, to_y) - scale.first[(x, y)];
                     e * e * most / (most + e * e)
                 } else {
                     most

@@ -13,7 +13,8 @@
 use glam::{DMat3, DVec3};
 
 use super::estimate::{
-    Blocks, Estimator, Free, NormalEquations, Outcome, Prior, State, Support, Surface, turn,
+    Blocks, Estimator, Free, NormalEquations, OTHER_DIRECTION, Outcome, Prior, State, Support,
+    Surface, turn,
 };
 use super::scale::Scale;
 use crate::motion_model::MotionModel;
@@ -24,12 +25,8 @@ const RELIEF: f64 = 100.0;
 const STEPS: [usize; 2] = [5, 3];
 /// Directions of T that are tried with a rotation and without.
 const DIRECTIONS: [usize; 2] = [5, 3];
-/// Candidates within this score of the best are tried again on a finer scale.
-const CLOSE: f64 = 60.0;
 /// A candidate with another direction of T within this score of the best explains the region as well, on a coarse scale.
 const EQUAL: f64 = 10.0;
-/// Cosine of the angle from which a direction of T is another.
-const OTHER: f64 = 0.9;
 /// Factor of prices on the scale where a model is selected: more pixels tell more.
 const FINE: f64 = 6.0;
 /// Share of E by which explanations may differ for what none of them explains, on the scale where a model is selected.
@@ -151,7 +148,8 @@ impl Problem<'_> {
                 start(model, mirror, &mut found);
             }
         }
-        distinct(found, CLOSE)
+        // Those that may be as good on a finer scale are tried again there.
+        distinct(found, FINE * EQUAL)
     }
 
     /// Whether what [`Self::search`] found has another explanation that fits as well.
@@ -221,7 +219,7 @@ fn distinct(mut found: Vec<Candidate>, close: f64) -> Vec<Candidate> {
 
 fn points_elsewhere(candidate: &Candidate, direction: DVec3) -> bool {
     let own = candidate.state.translation.normalize_or_zero();
-    candidate.model.translates() && own.dot(direction.normalize_or_zero()) < OTHER
+    candidate.model.translates() && own.dot(direction.normalize_or_zero()) < OTHER_DIRECTION
 }
 
 /// Whether, of candidates with the best first, another with another direction of T explains the region as well: its
@@ -264,92 +262,4 @@ fn mirrored(state: &State) -> State {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::camera::Camera;
-    use crate::window::Window;
-
-    fn state() -> State {
-        let mut surface = Surface::flat(8, &Window::whole(64, 48));
-        for (n, rho) in surface.rho.iter_mut().enumerate() {
-            *rho = 1.0 + 0.3 * (0.9 * n as f32).sin();
-        }
-        State {
-            translation: DVec3::new(0.02, -0.01, 0.015),
-            rotation: turn(DVec3::new(0.01, 0.02, -0.005)),
-            surface,
-        }
-    }
-
-    #[test]
-    fn the_mirror_image_of_the_mirror_image_is_the_thing_itself() {
-        let (own, twice) = (state(), mirrored(&mirrored(&state())));
-        assert!((own.translation - twice.translation).length() < 1e-12);
-        assert!((own.omega() - twice.omega()).length() < 1e-9);
-        for (a, b) in own.surface.rho.iter().zip(&twice.surface.rho) {
-            assert!((a - b).abs() < 1e-6);
-        }
-    }
-
-    #[test]
-    fn through_a_long_lens_the_mirror_image_moves_alike() {
-        // Without T_z, whose flow the mirror keeps only for ρ = 1.
-        let mut own = state();
-        own.translation.z = 0.0;
-        let other = mirrored(&own);
-        let camera = Camera::centred(1000.0, 64, 48).unwrap();
-        for (x, y) in [(3.0, 4.0), (40.0, 20.0), (60.0, 44.0)] {
-            let go = |s: &State| {
-                let rho = f64::from(s.surface.at(x as f32, y as f32));
-                camera.displacement(&s.motion(), x, y, rho).unwrap()
-            };
-            let ((u, v), (p, q)) = (go(&own), go(&other));
-            let apart = (u - p).hypot(v - q);
-            assert!(apart < 0.05 * u.hypot(v), "{apart} of ({u}, {v})");
-            assert!(
-                (own.surface.at(x as f32, y as f32) - other.surface.at(x as f32, y as f32)).abs()
-                    > 0.01
-            );
-        }
-    }
-
-    fn candidate(model: MotionModel, translation: DVec3, score: f64) -> Candidate {
-        Candidate {
-            model,
-            state: State {
-                translation,
-                ..state()
-            },
-            outcome: Outcome::default(),
-            score,
-        }
-    }
-
-    #[test]
-    fn only_another_direction_that_fits_as_well_makes_it_ambiguous() {
-        use MotionModel::{Full, Still};
-        let (x, y) = (DVec3::X, DVec3::Y);
-        let of = |other: Candidate| {
-            ambiguous(
-                &distinct(vec![other, candidate(Full, x, 100.0)], CLOSE),
-                EQUAL,
-            )
-        };
-        assert!(of(candidate(Full, y, 105.0)));
-        assert!(of(candidate(Full, -x, 105.0)));
-        assert!(!of(candidate(Full, y, 100.0 + 2.0 * EQUAL)));
-        assert!(!of(candidate(Full, x + 0.1 * y, 105.0)));
-        assert!(!of(candidate(Still, DVec3::ZERO, 105.0)));
-        let kept = distinct(
-            vec![
-                candidate(Full, y, 100.0 + 2.0 * CLOSE),
-                candidate(Full, x, 100.0),
-                candidate(Still, DVec3::ZERO, 110.0),
-                candidate(Still, DVec3::ZERO, 120.0),
-            ],
-            CLOSE,
-        );
-        let scores: Vec<f64> = kept.iter().map(|c| c.score).collect();
-        assert_eq!(scores, [100.0, 110.0]);
-    }
-}
+mod tests;

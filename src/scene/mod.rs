@@ -8,6 +8,7 @@ mod carousel;
 mod cast;
 mod columns;
 mod dice;
+mod draw;
 mod figure;
 mod film;
 mod flight;
@@ -35,6 +36,7 @@ use crate::frames::{Frame, MAX_SIDE, MIN_SIDE};
 use crate::interpretation::Interpretation;
 use stage::Stage;
 
+pub use draw::Draw;
 pub use film::{Film, render_film, variant_film};
 pub use mild::mild;
 pub use passing::passing;

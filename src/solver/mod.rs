@@ -89,7 +89,7 @@ impl Solver {
     pub fn step(&mut self) -> Status {
         if self.status == Status::Running {
             self.step_motion();
-            self.step_depth();
+            self.find_depth();
             self.step_curves();
         }
         self.status
@@ -128,7 +128,16 @@ impl Solver {
     }
 
     /// Step 2 alone: depth, for the present motions and curves.
-    pub fn step_depth(&mut self) {
+    ///
+    /// # Errors
+    /// [`Error::Planes`] where there is no depth yet; then nothing is changed.
+    pub fn step_depth(&mut self) -> Result<(), Error> {
+        self.approach.check_depth()?;
+        self.find_depth();
+        Ok(())
+    }
+
+    fn find_depth(&mut self) {
         let start = (self.clock)();
         self.approach.find_depth(&self.options);
         self.seconds.depth += (self.clock)() - start;

@@ -147,8 +147,8 @@ impl Solver {
 
     /// Step 2 alone.
     #[wasm_bindgen(js_name = stepDepth)]
-    pub fn step_depth(&mut self) {
-        self.change().step_depth();
+    pub fn step_depth(&mut self) -> Result<(), Error> {
+        self.change().step_depth()
     }
 
     /// Step 3 alone.
@@ -290,10 +290,12 @@ impl Solver {
             iterations,
             history,
             seconds,
+            regions,
             ..
         } = self.solver.report();
+        let models: Vec<_> = regions.iter().map(|region| region.model).collect();
         MotionFile {
-            regions: RegionMotion::list(&found.motions),
+            regions: RegionMotion::list(&found.motions, &models),
             status: self.status(),
             iterations,
             energy: history,

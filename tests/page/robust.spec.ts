@@ -14,6 +14,8 @@ import {
   until,
 } from "./helpers";
 
+const message = (page: Page) => page.locator("#message");
+
 /** Makes the core do `what` at the second step, in the first worker only. */
 async function sabotage(page: Page, what: string): Promise<void> {
   let first = true;
@@ -84,6 +86,26 @@ test("a hang can be cancelled, even with a focal length that no camera has", asy
   await focal.fill("320");
   await focal.press("Enter");
   await runPasses(page, 3);
+});
+
+test("a core that cannot be loaded again can be once the line is back", async ({ page }) => {
+  // Three workers, one after the other, each of which loads the core.
+  test.slow();
+  await sabotage(page, "for (;;) {}");
+  await open(page);
+  const shapes = await read(page, (state) => state.shapes);
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+  await page.route(/\.wasm$/, (route) => route.abort());
+  await page.getByRole("button", { name: "Cancel" }).click();
+  await expect(message(page)).toContainText("core cannot be loaded", { timeout: PATIENCE });
+  await until(page, (state) => !state.running && state.busy === null && state.report === null);
+  await page.unroute(/\.wasm$/);
+  // The worker that could not load it says so once more; the next one can.
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => !state.running && state.report?.iterations === 0);
+  expect(await read(page, (state) => state.shapes)).toEqual(shapes);
+  await runPasses(page, 2);
 });
 
 test("a core that cannot be loaded is said", async ({ page }) => {

@@ -102,6 +102,11 @@ impl Surface {
         }
     }
 
+    /// The control points at the corners of a cell, by column, then row.
+    pub fn corners(&self, column: usize, row: usize) -> [usize; 4] {
+        [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| self.node(column + i, row + j))
+    }
+
     /// Most by which the places of two control points of one curvature term differ.
     pub fn bandwidth(&self) -> usize {
         2 * self.rows.min(self.columns)
