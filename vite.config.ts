@@ -12,6 +12,8 @@ export default defineConfig({
     outDir: here("dist"),
     emptyOutDir: true,
     target: "es2022",
+    // Small pictures are files as well: nothing in the page needs data: addresses.
+    assetsInlineLimit: 0,
     // three.js alone is more than the usual limit; it comes only with the relief.
     chunkSizeWarningLimit: 700,
   },

@@ -5,7 +5,7 @@ import { parseArgs } from "node:util";
 import { ifMain, root, Trouble } from "./shell.js";
 import { setup } from "./setup.js";
 import { build } from "./build.js";
-import { wasm } from "./wasm.js";
+import { recordings } from "./recordings.js";
 
 const USAGE = "npm start [-- [--port PORT] [--host HOST]]";
 
@@ -29,7 +29,7 @@ function options() {
 await ifMain(import.meta.url, async () => {
   const { dev, host, port } = options();
   await setup();
-  if (dev) await wasm();
+  if (dev) await recordings();
   else await build();
 
   // Only now is Vite sure to be installed.

@@ -130,6 +130,9 @@ function inWords({ report }: Readonly<State>): string {
   const part = (value: number) => percent(value / (total || 1), 0);
   const left = `Of what is left, ${part(data)} is misfit of the frames, ${part(smoothness)} depth's roughness, ${part(length)} length of curves.`;
   // What the passes came to, as the line shows it: curves moved since have an energy of their own.
+  if (report.breaks.includes(report.history.length)) {
+    return "Curves or weights have changed since the last pass: the next tells their energy.";
+  }
   const since = breaks(report).at(-1) ?? 0;
   const [first = number(total), ...later] = report.history.slice(since).map((e) => number(e));
   const fall = later.length > 0 ? `from ${first} to ${later.at(-1)}` : `${first} after one pass`;

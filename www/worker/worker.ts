@@ -158,6 +158,7 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
       view: wanted.view,
       running,
       started: running || engine.started,
+      revision: engine.revision,
       report,
       contours,
       pictures,
@@ -207,11 +208,21 @@ const service: Service = {
       return Comlink.transfer(seen, [seen.picture]);
     }),
 
-  open: (source, keep) =>
+  open: (source, keep, found) =>
     guard(async () => {
-      const opened = await engine.open(source, keep);
+      const opened = await engine.open(source, keep, found);
       stop();
       return Comlink.transfer(opened, opened.frames);
+    }),
+
+  keep: () => guard(() => engine.keep()),
+
+  restore: (setup, found, wanted) =>
+    guard(async () => {
+      stop();
+      await engine.restore(setup, found);
+      look = looked(wanted);
+      publish();
     }),
 
   find: (camera) => guard(() => engine.find(camera)),
@@ -233,7 +244,7 @@ const service: Service = {
   run: (setup, wanted, least) =>
     obey(setup, wanted, () => {
       pace = least;
-      if (engine.report().status !== "running") engine.reset();
+      if (engine.atEnd()) engine.reset();
       running = true;
       void loop();
     }),

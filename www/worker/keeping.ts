@@ -1,0 +1,17 @@
+/** A result's bytes made small, and back, by the browser's own means. */
+
+const FORMAT = "deflate-raw";
+
+export const squeeze = (bytes: Uint8Array<ArrayBuffer>) =>
+  through(bytes, new CompressionStream(FORMAT));
+
+export const unsqueeze = (bytes: Uint8Array<ArrayBuffer>) =>
+  through(bytes, new DecompressionStream(FORMAT));
+
+async function through(
+  bytes: Uint8Array<ArrayBuffer>,
+  stream: CompressionStream | DecompressionStream,
+): Promise<Uint8Array<ArrayBuffer>> {
+  const out = new Blob([bytes]).stream().pipeThrough(stream);
+  return new Uint8Array(await new Response(out).arrayBuffer());
+}
