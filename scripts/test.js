@@ -57,6 +57,7 @@ async function types() {
   await wasm();
   await run("tsc", ["-p", "tsconfig.json"]);
   await run("tsc", ["-p", "tsconfig.node.json"]);
+  await run("tsc", ["-p", "tsconfig.worker.json"]);
 }
 
 async function commandLine() {

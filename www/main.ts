@@ -22,6 +22,7 @@ import { mountTransport } from "./panels/transport";
 import { mountViewbar } from "./panels/viewbar";
 import { mountRelief } from "./relief/relief";
 import { mountAddress } from "./memory/address";
+import { mountInstalled } from "./installed";
 import { begin } from "./memory/first";
 import { mountHeld } from "./memory/held";
 import { mountHistory } from "./memory/history";
@@ -60,4 +61,4 @@ mountAddress();
 /** For the browser's console: what the page knows, to read. */
 Object.defineProperty(window, "relievo", { get: () => store.state });
 
-void begin();
+void begin().then(mountInstalled);

@@ -26,8 +26,9 @@ export const test = base.extend<{ opened: Page; patient: void }>({
 
 export { expect };
 
-export async function open(page: Page): Promise<void> {
-  await page.goto("./");
+/** Two marble blocks with a circle on each, ready to run. */
+export async function open(page: Page, address = "./#blocks"): Promise<void> {
+  await page.goto(address);
   await ready(page);
 }
 

@@ -21,8 +21,8 @@ export function mountAddress(): void {
   addEventListener("popstate", () => void follow());
   store.watch(
     ({ source, view, opening, frames, playing }) => [source, view, opening, frames, playing],
-    ({ source, view, opening }) => {
-      if (source && !opening) void tell(source, view);
+    ({ source, view, opening, playing }) => {
+      if (source && !opening && !playing) void tell(source, view);
     },
   );
   byId("share").addEventListener("click", () => void share());

@@ -75,11 +75,16 @@ const pairs = (values: object) =>
     .map(([key, value]) => `${key}:${typeof value === "number" ? short(value) : value}`)
     .join("~");
 
+/** Whether the part of an address after `#` is more than a place on the page. */
+export function namesPair(hash: string): boolean {
+  const [place = ""] = hash.slice(1).split("?");
+  return place !== "" && !document.getElementById(place);
+}
+
 /** What the part of an address after `#` asks for; `null` when it asks for nothing. */
 export function targetOf(hash: string, catalogues: Catalogues): Target | null {
-  const text = hash.replace(/^#/, "");
-  const [place = "", ...rest] = text.split("?");
-  if (place === "" || place === "about" || document.getElementById(place)) return null;
+  if (!namesPair(hash)) return null;
+  const [place = "", ...rest] = hash.slice(1).split("?");
   const [name = "", viewId] = place.split("/").map(decoded);
   const useless: string[] = [];
   const view = VIEWS.find(({ id }) => id === viewId)?.id ?? null;

@@ -17,7 +17,8 @@ export function mountSequence(): void {
     const { memory } = store.state;
     const name = select.value;
     if (memory?.some(({ id }) => id === name)) void resume(name);
-    else if (name !== OWN) void openScene(name);
+    // Where nothing has been found yet, the frame is what there is to see.
+    else if (name !== OWN) void openScene(name, { view: "curves" });
   });
   // What was chosen last, though it may still be opening: arrow keys go on from there.
   const choosePresent = () => {

@@ -16,17 +16,15 @@ const BEAT_MS = 220;
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
-/** Shows the recording of a sequence from its first picture on; resolves when the last is there. */
-export async function play(name: string): Promise<Recording> {
-  const recording = await fetchRecording(name);
-  const source = sceneOf(name);
+/** Shows a recording from its first picture on; resolves when the last is there. */
+export async function play(recording: Recording): Promise<void> {
+  const source = sceneOf(recording.name);
   const { title, lesson, width, height, camera, shapes } = recording;
   store.update({
     ...{ source, title, lesson, width, height, camera, shapes, truth: true },
     ...{ view: "depth", started: true, playing: true },
   });
   await showAll(recording, source);
-  return recording;
 }
 
 async function showAll({ passes }: Recording, source: Source): Promise<void> {
