@@ -14,6 +14,8 @@ export default defineConfig({
   use: {
     ...devices["Desktop Chrome"],
     baseURL: `http://127.0.0.1:${port}/`,
+    // Playwright waits for functions by putting code into the page; closed.spec.ts keeps the policy in force.
+    bypassCSP: true,
     // Requests that a service worker makes cannot be watched; offline.spec.ts lets it in.
     serviceWorkers: "block",
     trace: "retain-on-failure",
