@@ -13,6 +13,7 @@ import { adopt, sameFrames } from "./opened";
 import { paceOf } from "./pace";
 import { sceneOf } from "./scenes";
 import { store, type State } from "./store";
+import { Viewer } from "./viewer";
 import { wantedBy } from "./views";
 import { ending, sentence } from "./wording";
 import { Client, Ended, type Remote } from "./worker/client";
@@ -44,6 +45,14 @@ const client = new Client({
     answered = asked;
     failed(failure, true);
   },
+});
+
+/** Draws while the solver is in a pass: it knows what the pass before came to. */
+const viewer = new Viewer((progress) => {
+  const { pictures, view, mesh } = progress;
+  for (const old of store.state.pictures) old?.close();
+  store.update({ pictures, pictured: view });
+  if (mesh) meshListener(mesh);
 });
 
 /** Loads the core; `memory/first.ts` says what is opened first. */
@@ -217,6 +226,7 @@ let lookAgain = false;
 /** Tells the worker what the page is looking at: the latest only, once the last was answered. */
 export async function look(): Promise<void> {
   if (!store.state.frames) return;
+  viewer.look(wantedBy(store.state));
   if (asked !== answered) {
     lookAgain = true;
     return;
@@ -366,6 +376,11 @@ async function show(progress: Progress): Promise<void> {
     scores: progress.scores,
   });
   if (progress.mesh) meshListener(progress.mesh);
+  if (!progress.running) viewer.end();
+  else if (progress.found && state.source) {
+    const { found: bytes, report, contours } = progress;
+    viewer.follow(state.source, setupOf(state), { bytes, report, contours });
+  }
   if (finished) announce(ending(progress.report));
   if (lookAgain) {
     lookAgain = false;

@@ -4,7 +4,8 @@ import AxeBuilder from "@axe-core/playwright";
 
 import { estimate } from "../../www/progress";
 import type { Report } from "../../www/worker/protocol";
-import { expect, runLong, test, until } from "./helpers";
+import type { State } from "../../www/store";
+import { expect, look, open, passes, PATIENCE, read, runLong, test, until } from "./helpers";
 
 test("a run says what it does, shows a bar that grows, and the time left", async ({
   opened: page,
@@ -58,3 +59,51 @@ test("time left follows the passes that were made", () => {
   // Nothing is faster than the pace.
   expect(estimate(report(1, 2, 1, 1), passes(1, 1, 400), 400).left).toBeGreaterThan(2);
 });
+
+test("a view chosen in the middle of a long pass shows what the last one came to", async ({
+  page,
+}) => {
+  // Each pass from the second on takes as long as nobody would wait.
+  await page.route(/\/worker-[^/]*\.js$/, async (route) => {
+    const response = await route.fetch();
+    await route.fulfill({ response, body: `${SLOW}\n${await response.text()}` });
+  });
+  await open(page);
+  await page.getByLabel("Pace").selectOption("as fast as it goes");
+  await page.getByRole("button", { name: "Run", exact: true }).click();
+  await until(page, ({ report }) => (report?.iterations ?? 0) >= 2);
+  for (const [name, id] of [
+    ["Labels", "labels"],
+    ["Confidence", "confidence"],
+  ] as const) {
+    const made = await passes(page);
+    await page.getByRole("radio", { name, exact: true }).check({ force: true });
+    await page.waitForFunction(
+      (id) => (window as unknown as { relievo: State }).relievo.pictured.startsWith(id),
+      id,
+      { timeout: PATIENCE },
+    );
+    expect(await passes(page), "no pass has ended meanwhile").toBe(made);
+    expect((await look(page)).colours).toBeGreaterThan(1);
+  }
+  expect(await read(page, ({ running, message }) => [running, message])).toEqual([true, null]);
+});
+
+/** Put before the worker's script: steps are held up at the border to the core. */
+const SLOW = `
+{
+  const wrap = (result) => {
+    const real = result.instance.exports;
+    let steps = 0;
+    const exports = { ...real, solver_step: (...given) => {
+      const end = performance.now() + ([400, 400][steps++] ?? 60000);
+      while (performance.now() < end);
+      return real.solver_step(...given);
+    } };
+    return { module: result.module, instance: { exports } };
+  };
+  for (const name of ["instantiate", "instantiateStreaming"]) {
+    const real = WebAssembly[name];
+    WebAssembly[name] = async (...given) => wrap(await real.apply(WebAssembly, given));
+  }
+}`;

@@ -57,6 +57,15 @@ export class Client {
     this.start();
   }
 
+  /** Ends the worker; the next call starts another. */
+  end(): void {
+    this.worker?.terminate();
+    this.abandon(new Ended());
+    this.turn = Promise.resolve();
+    this.worker = null;
+    this.service = null;
+  }
+
   private start(): void {
     const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
     this.ended = new Promise((_, reject) => {

@@ -39,6 +39,9 @@ import { squeeze, unsqueeze } from "./keeping";
 /** Longest side of a frame sent to the page; more than a screen shows only costs memory. */
 const LONGEST_SIDE = 2048;
 
+/** Frames with more pixels are not copied while a solver is at work on them. */
+const MOST_PIXELS = 4e6;
+
 interface Owned {
   first: Frame;
   second: Frame;
@@ -181,6 +184,13 @@ export class Engine {
       report,
       contours,
     };
+  }
+
+  /** What is found so far, for others to draw; `null` for frames so large that a copy would cost too much. */
+  snapshot(): Uint8Array<ArrayBuffer> | null {
+    const { owned, solver } = this.present();
+    if (owned.first.width * owned.first.height > MOST_PIXELS) return null;
+    return solver.keep(false) as Uint8Array<ArrayBuffer>;
   }
 
   async restore(setup: Setup, found: Found): Promise<void> {

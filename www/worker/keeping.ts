@@ -5,8 +5,14 @@ const FORMAT = "deflate-raw";
 export const squeeze = (bytes: Uint8Array<ArrayBuffer>) =>
   through(bytes, new CompressionStream(FORMAT));
 
-export const unsqueeze = (bytes: Uint8Array<ArrayBuffer>) =>
-  through(bytes, new DecompressionStream(FORMAT));
+/** How the core's bytes begin. */
+const MAGIC = "RLV1";
+
+/** Bytes that were never squeezed are left as they are. */
+export async function unsqueeze(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array<ArrayBuffer>> {
+  const begin = String.fromCharCode(...bytes.subarray(0, MAGIC.length));
+  return begin === MAGIC ? bytes : through(bytes, new DecompressionStream(FORMAT));
+}
 
 async function through(
   bytes: Uint8Array<ArrayBuffer>,

@@ -56,7 +56,7 @@ export interface Setup {
 
 /** What was found, put away: enough to show it again without the solver that found it. */
 export interface Found {
-  /** The core's own, compressed (`keeping.ts`). */
+  /** The core's own, as a rule compressed (`keeping.ts`). */
   bytes: Uint8Array<ArrayBuffer>;
   report: Report;
   contours: Contour[];
@@ -136,6 +136,8 @@ export interface Progress {
   pictures: (ImageBitmap | null)[];
   mesh: MeshData | null;
   scores: ScoreTable | null;
+  /** What is found so far, not compressed, where passes take so long that a view should not wait for the next. */
+  found: Uint8Array<ArrayBuffer> | null;
 }
 
 /** Something went wrong while nobody was waiting for an answer. */
