@@ -11,7 +11,7 @@ import { recall } from "./database";
 import { settingsOf } from "./held";
 import { addressOf, linkOf, targetOf, type Target } from "./link";
 import { isOwn, nameOf } from "./names";
-import { resume } from "./remember";
+import { flush, resume } from "./remember";
 
 /** The address that is shown, or about to be. */
 let shown = "";
@@ -95,6 +95,7 @@ function complaintOf(name: string, there: boolean, scene: boolean, useless: stri
 
 /** The pair with exactly what the link tells; what was kept of it can be gone back to. */
 async function exactly({ name, view, setting }: Target): Promise<boolean> {
+  await flush();
   const kept = await recall(name).catch(() => null);
   const scene = store.state.catalogues?.scenes.find((one) => one.name === name);
   const open_ = store.state.source;

@@ -27,15 +27,16 @@ export function mountRemember(): void {
     (state) => [state.source, state.frames, state.heldFound, ...Object.values(settingOf(state))],
     () => {
       clearTimeout(timer);
-      timer = setTimeout(write, PAUSE_MS);
+      timer = setTimeout(flush, PAUSE_MS);
     },
   );
-  document.addEventListener("visibilitychange", () => document.hidden && void write());
-  addEventListener("pagehide", () => void write());
+  document.addEventListener("visibilitychange", () => document.hidden && void flush());
+  addEventListener("pagehide", () => void flush());
   void list();
 }
 
-function write(): Promise<void> {
+/** Writes what has changed, and waits for it. */
+export function flush(): Promise<void> {
   clearTimeout(timer);
   writing = writing.then(() => writeNow(store.state)).catch(cannot);
   return writing;
@@ -85,7 +86,7 @@ async function thumbnail(frame: ImageBitmap): Promise<Blob | null> {
 
 /** Opens a pair as it was left; `false` when it is not kept, or cannot be opened. */
 export async function resume(id: string, view?: string): Promise<boolean> {
-  await write();
+  await flush();
   const kept = await recall(id).catch(() => null);
   if (!kept) return false;
   const { source, result } = kept;

@@ -33,14 +33,15 @@ export function mountTransport(): void {
   );
 
   store.watch(
-    ({ running, busy, frames, started, report }) => [
+    ({ running, busy, frames, started, report, playing }) => [
+      playing,
       running,
       busy,
       frames,
       started,
       report?.status,
     ],
-    ({ running, busy, frames, started, report }) => {
+    ({ running, busy, frames, started, report, playing }) => {
       const over = started && report !== null && report.status !== "running";
       const name = running ? "Pause" : over ? "Run again" : "Run";
       main.replaceChildren(icon(running ? "pause" : "run"), name);
@@ -54,7 +55,8 @@ export function mountTransport(): void {
       for (const button of parts()) button.disabled = !takesSteps;
       // A button that is disabled or hidden cannot hold the keyboard's place.
       if (held?.closest(".transport") && held.matches(":disabled, [hidden]")) main.focus();
-      byId("cancel").hidden = !running && busy === null;
+      // A recording that plays while the core loads is nothing to wait for.
+      byId("cancel").hidden = !running && (busy === null || playing);
       document.body.dataset["running"] = String(running);
     },
   );
