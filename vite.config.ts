@@ -43,7 +43,9 @@ const files: Plugin = {
       for (const [name, bytes] of copied) hash.update(name).update(bytes);
       const names = [...built.map(({ fileName }) => fileName), ...copied.map(([name]) => name)];
       const worker = bundle[WORKER];
-      if (worker?.type !== "chunk") throw new Error("the service worker was not built");
+      if (worker?.type !== "chunk" || !bundle["index.html"]) {
+        throw new Error("the service worker needs the page and itself");
+      }
       const list = names.filter((name) => name !== "index.html").map((name) => `./${name}`);
       worker.code = worker.code
         .replace("__FILES__", JSON.stringify(list))

@@ -182,9 +182,9 @@ export function step(part: Part): Promise<boolean> {
 
 /** Shows what was put away, with what is set. */
 export function restore(found: Found): Promise<boolean> {
-  return command({ started: true, selected: null }, (service, setup, wanted) =>
-    service.restore(setup, found, wanted),
-  );
+  const { report, contours } = found;
+  const patch = { started: true, selected: null, report, contours };
+  return command(patch, (service, setup, wanted) => service.restore(setup, found, wanted));
 }
 
 /** The present result, put away; `null` when there is none, or it could not be. */
