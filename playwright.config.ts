@@ -14,11 +14,15 @@ export default defineConfig({
   use: {
     ...devices["Desktop Chrome"],
     baseURL: `http://127.0.0.1:${port}/`,
+    // Playwright waits for functions by putting code into the page; closed.spec.ts keeps the policy in force.
+    bypassCSP: true,
+    // Requests that a service worker makes cannot be watched; offline.spec.ts lets it in.
+    serviceWorkers: "block",
     trace: "retain-on-failure",
     launchOptions: { executablePath: findChromium(), args: chromiumFlags },
   },
   webServer: {
-    command: `npx vite preview --host 127.0.0.1 --port ${port} --strictPort`,
+    command: `node scripts/serve.js --port ${port}`,
     url: `http://127.0.0.1:${port}/`,
   },
 });

@@ -7,6 +7,7 @@ import { join } from "node:path";
 
 import { build } from "./build.js";
 import { ensureChromium } from "./chromium.js";
+import { recordings } from "./recordings.js";
 import { setup } from "./setup.js";
 import { duration, ifMain, root, run, stage, Trouble } from "./shell.js";
 import { wasm } from "./wasm.js";
@@ -57,10 +58,11 @@ async function types() {
   await wasm();
   await run("tsc", ["-p", "tsconfig.json"]);
   await run("tsc", ["-p", "tsconfig.node.json"]);
+  await run("tsc", ["-p", "tsconfig.worker.json"]);
 }
 
 async function commandLine() {
-  await wasm();
+  await recordings();
   return nodeTests("tests/cli");
 }
 

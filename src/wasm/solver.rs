@@ -24,7 +24,7 @@ use crate::solver::Report;
 use crate::view::{self, ViewParams};
 
 /// Views that are saved with the results, and under which names.
-const PICTURES: [(&str, &str); 6] = [
+pub(super) const PICTURES: [(&str, &str); 6] = [
     ("segmentation", "segmentation.png"),
     ("depth", "depth.png"),
     ("relief", "relief.png"),
@@ -218,14 +218,7 @@ impl Solver {
 
     /// How far this is from the truth of `scene`, and Horn–Schunck from its image motion: a `ScoreTable` as JSON.
     pub fn scores(&self, scene: &Scene) -> Result<String, Error> {
-        let truth = &scene.sequence().truth;
-        let found = score::compare(self.found(), truth)?;
-        let baseline = score::compare_flow(&scene.baseline()?.flow, &truth.flow, None)?;
-        let (aee, aae) = baseline.unzip();
-        Ok(write(&ScoreTable {
-            found,
-            baseline: FlowScores { aee, aae },
-        }))
+        score_table(self.found(), scene)
     }
 
     /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`].
@@ -268,8 +261,20 @@ impl Solver {
     }
 }
 
+/// How far `found` and Horn–Schunck are from the truth of `scene`: a `ScoreTable` as JSON.
+pub(super) fn score_table(found: &Interpretation, scene: &Scene) -> Result<String, Error> {
+    let truth = &scene.sequence().truth;
+    let found = score::compare(found, truth)?;
+    let baseline = score::compare_flow(&scene.baseline()?.flow, &truth.flow, None)?;
+    let (aee, aae) = baseline.unzip();
+    Ok(write(&ScoreTable {
+        found,
+        baseline: FlowScores { aee, aae },
+    }))
+}
+
 impl Solver {
-    fn found(&self) -> &Interpretation {
+    pub(super) fn found(&self) -> &Interpretation {
         self.found.get_or_init(|| self.solver.interpretation())
     }
 

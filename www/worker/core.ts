@@ -15,6 +15,7 @@ export {
   findFocal,
   Frame,
   hornSchunck,
+  Kept,
   panicMessage,
   Scene,
   Solver,
