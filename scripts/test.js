@@ -1,7 +1,7 @@
 // npm test: every check there is, each timed, and a summary. `npm test -- page cli` runs only the
 // stages whose names contain one of those words.
 
-import { existsSync, readdirSync } from "node:fs";
+import { existsSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { createServer } from "node:net";
 import { join } from "node:path";
 
@@ -19,6 +19,10 @@ const STAGES = [
   ["rust format", () => run("cargo", ["fmt", "--check"])],
   ["rust lint", () => run("cargo", ["clippy", "--locked", "--all-targets", ...DENY])],
   [
+    "rust lint without features",
+    () => run("cargo", ["clippy", "--locked", "--lib", "--no-default-features", ...DENY]),
+  ],
+  [
     "rust lint for wasm",
     () => run("cargo", ["clippy", "--locked", "--lib", "--features", "bench", ...WASM, ...DENY]),
   ],
@@ -27,25 +31,41 @@ const STAGES = [
     () => run("cargo", ["doc", "--locked", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" }),
   ],
   ["rust tests", rustTests],
+  ["crate as packed", crate],
   ["rust tests in Node", rustInNode],
   ["build", build],
   ["page format", () => run("prettier", ["--check", "."])],
   ["page types", types],
   ["speed table tests", () => nodeTests("tests/speed")],
   ["command line tests", commandLine],
+  ["npm package tests", npmPackage],
   ["page tests", page],
 ];
 
-async function rustTests() {
-  // Without the examples, which the lint has looked through.
-  const output = await run("cargo", ["test", "--locked", "--no-fail-fast", "--lib", "--tests"]);
-  return output + (await run("cargo", ["test", "--locked", "--doc"]));
+/** Without the benches, which the lint has looked through, and what `crate` runs. */
+function rustTests() {
+  return run("cargo", ["test", "--locked", "--no-fail-fast", "--lib", "--tests"]);
+}
+
+/** What `cargo package` makes builds by itself, with its examples; those in its documentation run. */
+async function crate() {
+  await run("cargo", ["package", "--locked", "--allow-dirty", "--no-verify"]);
+  const targets = join(root, process.env.CARGO_TARGET_DIR ?? "target");
+  const { version } = JSON.parse(readFileSync(join(root, "package.json"), "utf8"));
+  const folder = join(targets, "package", `relievo-${version}`);
+  rmSync(folder, { recursive: true, force: true });
+  await run("tar", ["-xzf", `${folder}.crate`, "-C", join(targets, "package")]);
+  const test = ["test", "--locked", "--manifest-path", join(folder, "Cargo.toml")];
+  const here = ["--target-dir", targets];
+  await run("cargo", [...test, ...here, "--examples"]);
+  return run("cargo", [...test, ...here, "--doc"]);
 }
 
 /** What both targets must agree in; the rest is the same code, compiled by the same compiler. */
 function rustInNode() {
   const tests = ["core", "solver"].flatMap((name) => ["--test", name]);
-  return run("cargo", ["test", "--locked", "--no-fail-fast", ...tests, ...WASM], {
+  const features = ["--features", "javascript"];
+  return run("cargo", ["test", "--locked", "--no-fail-fast", ...features, ...tests, ...WASM], {
     CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: "wasm-bindgen-test-runner",
     WASM_BINDGEN_TEST_ONLY_NODE: "1",
     // Seconds before the runner gives up on a whole binary.
@@ -64,9 +84,18 @@ async function commandLine() {
   return nodeTests("tests/cli");
 }
 
-/** @param {string} folder */
-function nodeTests(folder) {
-  return run("node", ["--test", "--test-reporter=spec", ...filesIn(folder, ".test.js")]);
+async function npmPackage() {
+  await wasm();
+  const chromium = await ensureChromium();
+  return nodeTests("tests/package", chromium ? { RELIEVO_CHROMIUM: chromium } : {});
+}
+
+/**
+ * @param {string} folder
+ * @param {Record<string, string>} [extra]
+ */
+function nodeTests(folder, extra) {
+  return run("node", ["--test", "--test-reporter=spec", ...filesIn(folder, ".test.js")], extra);
 }
 
 async function page() {
@@ -98,12 +127,15 @@ function freePort() {
   });
 }
 
+/** @param {unknown} output */
+const plain = (output) => String(output ?? "").replaceAll(/\x1b\[[0-9;]*m/g, "");
+
 /**
  * How many tests a stage's output speaks of; none for a stage that is one check.
  * @param {unknown} output
  */
 function count(output) {
-  const text = String(output ?? "").replaceAll(/\x1b\[[0-9;]*m/g, "");
+  const text = plain(output);
   const patterns = [
     /test result: \w+\. (\d+) passed; (\d+) failed/g,
     /^ℹ pass (\d+)\s+ℹ fail (\d+)/gm,
@@ -116,6 +148,21 @@ function count(output) {
     failed += Number(match[2] ?? 0);
   }
   return { passed, failed };
+}
+
+/**
+ * The tests that a stage's output says have failed.
+ * @param {unknown} output
+ */
+export function failing(output) {
+  const text = plain(output);
+  const patterns = [
+    /^test (.+?) \.\.\. FAILED$/gm,
+    /^\s*✖ (.+?) \([\d.]+ms\)$/gm,
+    /^\s+\[\w+\] › (.+?) ?─*$/gm,
+  ];
+  const names = patterns.flatMap((pattern) => [...text.matchAll(pattern)].map(([, name]) => name));
+  return [...new Set(names)];
 }
 
 await ifMain(import.meta.url, async () => {
@@ -145,7 +192,8 @@ await ifMain(import.meta.url, async () => {
     const { passed, failed } = count(output);
     const tests = passed + failed ? `${passed} passed${failed ? `, ${failed} failed` : ""}` : "";
     const time = duration(performance.now() - from);
-    lines.push(`${word.padEnd(7)} ${name.padEnd(22)} ${time.padStart(11)}  ${tests || reason}`);
+    lines.push(`${word.padEnd(7)} ${name.padEnd(26)} ${time.padStart(11)}  ${tests || reason}`);
+    if (reason) lines.push(...failing(output).map((test) => `          ${test}`));
   }
   console.log(`\n== Summary, ${duration(performance.now() - begin)}`);
   console.log(lines.join("\n"));
