@@ -8,7 +8,9 @@ const SIMD = [
   253, 98, 11,
 ];
 
-/** @type {import("./index.js").default} */
+/**
+ * @param {import("../pkg/relievo.js").InitInput | Promise<import("../pkg/relievo.js").InitInput>} [from]
+ */
 export default async function init(from) {
   if (!WebAssembly.validate(new Uint8Array(SIMD))) {
     throw new Error(

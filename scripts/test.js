@@ -7,12 +7,16 @@ import { join } from "node:path";
 
 import { build } from "./build.js";
 import { ensureChromium } from "./chromium.js";
+import { findFirefox } from "./firefox.js";
 import { setup } from "./setup.js";
 import { duration, ifMain, root, run, stage, Trouble } from "./shell.js";
 import { wasm } from "./wasm.js";
 
 const WASM = ["--target", "wasm32-unknown-unknown"];
 const DENY = ["--", "-D", "warnings"];
+
+/** Tests of the page that run in Firefox as well. */
+const IN_FIREFOX = ["first-view", "run", "views"];
 
 /** @type {[string, () => Promise<unknown>][]} */
 const STAGES = [
@@ -40,6 +44,7 @@ const STAGES = [
   ["command line tests", commandLine],
   ["npm package tests", npmPackage],
   ["page tests", page],
+  ["page tests in Firefox", pageInFirefox],
 ];
 
 /** Without the benches, which the lint has looked through, and what `crate` runs. */
@@ -104,6 +109,19 @@ async function page() {
   return run("playwright", ["test"], {
     RELIEVO_PORT: String(await freePort()),
     ...(chromium ? { RELIEVO_CHROMIUM: chromium } : {}),
+  });
+}
+
+/** What most depends on the browser; nothing where no Firefox is installed. */
+async function pageInFirefox() {
+  const firefox = findFirefox();
+  if (firefox === undefined) return console.log("No Firefox is installed: left out.");
+  await build();
+  return run("playwright", ["test", ...IN_FIREFOX], {
+    NODE_OPTIONS: `--require ${JSON.stringify(join(root, "scripts/firefox.cjs"))}`,
+    RELIEVO_BROWSER: "firefox",
+    RELIEVO_FIREFOX: firefox,
+    RELIEVO_PORT: String(await freePort()),
   });
 }
 
