@@ -13,8 +13,11 @@ pub use frames::frames;
 pub use settings::settings;
 pub use solves::solves;
 
+/// Takes any bytes.
+pub type Target = fn(&[u8]);
+
 /// The functions by name.
-pub const ALL: [(&str, fn(&[u8])); 4] = [
+pub const ALL: [(&str, Target); 4] = [
     ("frames", frames),
     ("files", files),
     ("settings", settings),
