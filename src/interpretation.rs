@@ -11,6 +11,19 @@ use crate::motion_model::MotionModel;
 pub const NEAREST_FARTHEST: [f32; 2] = [0.02, 50.0];
 
 /// Image motion in pixels per frame.
+///
+/// ```
+/// use relievo::file::flo;
+/// use relievo::{Flow, Grid};
+///
+/// let flow = Flow {
+///     u: Grid::new(8, 6, 1.5),
+///     v: Grid::new(8, 6, -0.25),
+/// };
+/// let bytes = flo::write(&flow);
+/// assert_eq!(flo::read(&bytes, "flow.flo")?, flow);
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flow {
     /// Rightwards. Not a number where unknown.
@@ -20,6 +33,18 @@ pub struct Flow {
 }
 
 /// Labels, depth, motion and flow of the first of two frames; all grids have the frame's size.
+///
+/// ```
+/// use relievo::scene;
+///
+/// let truth = scene::render("squares", 64, 48)?.truth;
+/// assert_eq!(truth.regions(), 3);
+/// // The first square twice as far away, and twice as fast: the same image motion.
+/// let scaled = truth.scaled(&[1.0, 2.0]);
+/// assert_eq!(scaled.motions[1].translation, 2.0 * truth.motions[1].translation);
+/// assert_eq!(scaled.flow, truth.flow);
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interpretation {
     /// The camera that it is meant for.

@@ -1,6 +1,15 @@
 //! A rectangle of a frame: what belongs to a small thing need not be computed everywhere.
 
 /// Pixels `left..left + width` by `top..top + height` of a frame.
+///
+/// ```
+/// use relievo::Window;
+///
+/// // One pixel at (4, 3) of an 8×6 frame, and a pixel around it.
+/// let window = Window::around(8, 6, 1, |i| i == 3 * 8 + 4).unwrap();
+/// assert_eq!((window.left, window.top), (3, 2));
+/// assert_eq!((window.width, window.height), (3, 3));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
     /// First column.

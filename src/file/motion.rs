@@ -9,6 +9,21 @@ use crate::error::Error;
 use crate::motion_model::MotionModel;
 
 /// The contents of motion.json.
+///
+/// ```
+/// use relievo::file::motion::{MotionFile, RegionMotion};
+/// use relievo::RigidMotion;
+///
+/// let moves = RigidMotion { translation: [0.1, 0.0, 0.0].into(), ..Default::default() };
+/// let file = MotionFile {
+///     regions: RegionMotion::list(&[RigidMotion::default(), moves]),
+///     status: "converged".to_owned(),
+///     ..Default::default()
+/// };
+/// let read = MotionFile::read(&file.write())?;
+/// assert_eq!(read.regions[1].motion(), moves);
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MotionFile {
     /// Every region, the background first.

@@ -8,6 +8,7 @@ use image::{DynamicImage, ImageDecoder, ImageError, ImageReader};
 use std::io::Cursor;
 
 use crate::error::Error;
+use crate::file::png;
 use crate::grid::Grid;
 
 /// Shortest side of a frame, in pixels.
@@ -16,6 +17,20 @@ pub const MIN_SIDE: usize = 16;
 pub const MAX_SIDE: usize = 4096;
 
 /// A picture, for the solver and for the eye.
+///
+/// ```
+/// use relievo::file::png;
+/// use relievo::{Frame, Grid};
+///
+/// let orange = png::write_rgb(&Grid::new(32, 24, [255, 128, 0]))?;
+/// let frame = Frame::decode(&orange, "orange.png")?;
+/// assert_eq!((frame.width(), frame.height()), (32, 24));
+/// assert!((frame.grey[(5, 5)] - 145.8).abs() < 0.1); // 0.2126 R + 0.7152 G + 0.0722 B
+///
+/// let error = Frame::decode(b"no picture", "notes.txt").unwrap_err();
+/// assert!(error.to_string().starts_with("notes.txt cannot be read as an image"));
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Brightness in grey levels, 0–255, not rounded.
@@ -26,7 +41,7 @@ pub struct Frame {
 
 impl Frame {
     /// Reads a PNG, JPEG, PNM, WebP, BMP or TIFF file of 8 or 16 bits: grey, RGB, with or without
-    /// alpha. Transparent parts are shown on mid grey. `name` is what error messages call it.
+    /// alpha; only PNG without the feature `decoders`. Transparent parts are shown on mid grey. `name` is what error messages call it.
     ///
     /// # Errors
     /// [`Error::Decode`] for anything else, [`Error::Size`] outside the limits, [`Error::TooLarge`] far
@@ -43,6 +58,9 @@ impl Frame {
         };
         if bytes.is_empty() {
             return Err(unreadable("the file is empty".to_owned()));
+        }
+        if png::palette_breaks_off(bytes) {
+            return Err(unreadable("its palette is cut short".to_owned()));
         }
         let refused = |e: ImageError| match e {
             ImageError::Limits(_) => Error::TooLarge {
@@ -126,6 +144,18 @@ impl Frame {
 }
 
 /// Two moments of one film, of the same size and with something to see in them.
+///
+/// ```
+/// use relievo::{Error, Frame, FramePair, Grid};
+///
+/// let waves = |by: f32| Grid::from_fn(32, 24, |x, y| 128.0 + 50.0 * (0.4 * (x as f32 - by) + 0.3 * y as f32).sin());
+/// let [first, second] = [0.0, 0.5].map(|by| Frame::from_grey(waves(by)).unwrap());
+/// let pair = FramePair::new(first.clone(), second)?;
+/// assert_eq!(pair.width(), 32);
+///
+/// assert_eq!(FramePair::new(first.clone(), first), Err(Error::FramesIdentical));
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct FramePair {
     first: Frame,

@@ -29,6 +29,31 @@ use crate::options::{MAX_CURVES, Options, Preset};
 use crate::paper::Paper;
 
 /// Finds regions, motions and depth of a pair of frames.
+///
+/// ```
+/// use relievo::options::Preset;
+/// use relievo::{FramePair, Options, Solver, Status, scene};
+///
+/// let film = scene::render_film("blocks", 64, 48, 3)?;
+/// let [first, second, third] = [0, 1, 2].map(|i| film.frames[i].clone());
+/// let pair = FramePair::new(first, second)?;
+/// let camera = film.truths[0].camera;
+/// let mut solver = Solver::new(pair, camera, &film.curves, Options::default())?;
+///
+/// // A pass at a time; what has been found so far can be looked at in between.
+/// while solver.step() == Status::Running {
+///     let report = solver.report();
+///     println!("pass {}: energy {:.0}", report.iterations, report.energy.total);
+/// }
+/// assert_eq!(solver.interpretation().regions(), 3);
+///
+/// // The following frame, from what was found; then all of it with other settings.
+/// solver.next(third)?;
+/// while solver.step() == Status::Running {}
+/// solver.set_options(Options::preset(Preset::Paper))?;
+/// assert_eq!(solver.step(), Status::Running);
+/// # Ok::<(), relievo::Error>(())
+/// ```
 pub struct Solver {
     pair: Rc<FramePair>,
     camera: Camera,

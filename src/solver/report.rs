@@ -10,7 +10,10 @@ use crate::motion_model::MotionModel;
 
 /// Seconds spent in each step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Seconds {
     /// Step 1.
     pub motion: f64,
@@ -22,7 +25,10 @@ pub struct Seconds {
 
 /// One region.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct RegionReport {
     /// 0 for the background, k for the k-th curve.
     pub label: usize,
@@ -45,7 +51,10 @@ pub struct RegionReport {
 
 /// The state of a solver.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Report {
     /// Passes made.
     pub iterations: usize,
@@ -76,7 +85,10 @@ pub struct Report {
 
 /// How good a result is expected to be, as the scale at work allows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Expected {
     /// Mean error of the flow, pixels of the frame.
     pub flow: f64,
@@ -86,7 +98,10 @@ pub struct Expected {
 
 /// The terms of (7) and their sum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Terms {
     /// The terms.
     #[serde(flatten)]
@@ -97,7 +112,10 @@ pub struct Terms {
 
 /// Seconds in each step, and altogether.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Times {
     /// Altogether.
     pub total: f64,

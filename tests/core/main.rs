@@ -14,7 +14,10 @@ mod derivatives;
 mod drawn;
 mod files;
 mod frames;
+// WebAssembly reads no files.
 mod horn_schunck;
+#[cfg(not(target_arch = "wasm32"))]
+mod hostile;
 mod lighting;
 mod options;
 mod pyramid;

@@ -76,6 +76,8 @@ export class Client {
       event.preventDefault();
       const message = event.message || "the worker could not be started";
       this.abandon(Object.assign(new Error(message), { name: "Panic" }));
+      // While it runs by itself there is no call that could hear of it.
+      if (this.worker === worker) this.listener.failure({ message, panic: true });
     });
     this.worker = worker;
     this.service = Comlink.wrap<Service>(worker);
