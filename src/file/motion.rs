@@ -12,11 +12,12 @@ use crate::motion_model::MotionModel;
 ///
 /// ```
 /// use relievo::file::motion::{MotionFile, RegionMotion};
-/// use relievo::RigidMotion;
+/// use relievo::{MotionModel, RigidMotion};
 ///
+/// let models = [MotionModel::Still, MotionModel::Translation];
 /// let moves = RigidMotion { translation: [0.1, 0.0, 0.0].into(), ..Default::default() };
 /// let file = MotionFile {
-///     regions: RegionMotion::list(&[RigidMotion::default(), moves]),
+///     regions: RegionMotion::list(&[RigidMotion::default(), moves], &models),
 ///     status: "converged".to_owned(),
 ///     ..Default::default()
 /// };

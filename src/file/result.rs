@@ -18,7 +18,8 @@ use crate::interpretation::Interpretation;
 /// use relievo::scene;
 ///
 /// let truth = scene::render("squares", 64, 48)?.truth;
-/// let motion = MotionFile { regions: RegionMotion::list(&truth.motions), ..Default::default() };
+/// let regions = RegionMotion::list(&truth.motions, &truth.models());
+/// let motion = MotionFile { regions, ..Default::default() };
 /// let files = result::write(&truth, &motion)?;
 /// let bytes = |name| &files.iter().find(|(n, _)| *n == name).unwrap().1[..];
 /// let read = ResultFiles {

@@ -14,6 +14,7 @@ use crate::file::motion::{MotionFile, RegionMotion, Seconds};
 use crate::file::{png, result};
 use crate::frames::FramePair;
 use crate::interpretation::Interpretation;
+use crate::motion_model::MotionModel;
 use crate::view::{self, ViewParams};
 
 /// What is taken from a `Contour`.
@@ -31,6 +32,13 @@ struct Account {
     iterations: usize,
     history: Vec<Option<f64>>,
     seconds: Seconds,
+    regions: Vec<Model>,
+}
+
+/// What is taken from a `RegionReport`.
+#[derive(Deserialize)]
+struct Model {
+    model: MotionModel,
 }
 
 #[wasm_bindgen]
@@ -78,8 +86,9 @@ impl Kept {
         }
         let outlines: Vec<Outline> = contours.read("curves")?;
         let account: Account = report.read("report")?;
+        let models: Vec<_> = account.regions.iter().map(|region| region.model).collect();
         let motion = MotionFile {
-            regions: RegionMotion::list(&found.motions),
+            regions: RegionMotion::list(&found.motions, &models),
             status: account.status,
             iterations: account.iterations,
             energy: (account.history.iter())
@@ -118,8 +127,11 @@ impl Kept {
     pub fn files(&self, params: &Json) -> Result<Array, Error> {
         let params = params.view_params()?;
         let found = self.found.scaled(&params.scales);
+        let models: Vec<_> = (self.motion.regions.iter())
+            .filter_map(|region| region.model)
+            .collect();
         let motion = MotionFile {
-            regions: RegionMotion::list(&found.motions),
+            regions: RegionMotion::list(&found.motions, &models),
             ..self.motion.clone()
         };
         let mut files = result::write(&found, &motion)?;
