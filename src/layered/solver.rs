@@ -9,8 +9,7 @@
 //! ```
 //!
 //! σ is measured at the start of a scale and held, so that energies compare within it. A pass that raises the energy is
-//! taken back and ends the scale. Energies do not compare between scales, before and after σ is measured, and after the
-//! first pass of the finest scale, when outlines become dearer.
+//! taken back and ends the scale. Energies do not compare between scales, and before and after σ is measured.
 
 use std::rc::Rc;
 
@@ -239,9 +238,7 @@ impl Layered {
                 let [least, most] = if self.warm { [1, 2] } else { PASSES };
                 let enough = done + 1 >= least && (still || alone);
                 if !self.rejected && !enough && done + 1 < most {
-                    let dearer = self.level == 0 && done == 0;
-                    let next = if dearer { Next::Another } else { Next::Again };
-                    (Phase::Rigid(done + 1), next)
+                    (Phase::Rigid(done + 1), Next::Again)
                 } else if self.level > 0 {
                     self.refine_scale();
                     (Phase::Rigid(0), Next::Another)

@@ -4,7 +4,7 @@
 //! depth rough, strong ones alone turn T, since smoothness prefers the T that needs the least relief.
 
 use super::estimate::{Free, Prior, State, Support, saturation, surface_energy};
-use super::label::{LENGTH_OF_PULL, Occlusion, drop_small_components, rigid_residual};
+use super::label::{Occlusion, Outlines, Reach, drop_small_components, rigid_residual};
 use super::models::{Problem, free};
 use super::solver::{Layered, Phase};
 use crate::motion_model::MotionModel;
@@ -17,11 +17,14 @@ use crate::window::Window;
 pub(super) const STIFFNESS: [f64; 2] = [1e5, 1e6];
 /// Gauss–Newton steps of motion with depth, and of depth alone.
 const STEPS: usize = 2;
-/// What a pixel of curve costs in units of the largest cost of a pixel: on coarse scales and in the first pass of the
-/// finest, so that curves do not stick, and at last.
-const PULL: [f32; 3] = [1.0, 2.0, 4.0];
-/// The same while regions are planes.
-const PLANAR_PULL: f32 = 0.5;
+/// λ in units of the largest cost of a pixel, per pixel of length: while regions are planes, and from then on.
+const LENGTH: [f32; 2] = [0.2, 1.5];
+/// How far labels move while regions are planes, on coarse scales, and on the finest.
+const REACH: [Reach; 3] = [
+    Reach { band: 8, sweeps: 2 },
+    Reach { band: 4, sweeps: 1 },
+    Reach { band: 3, sweeps: 1 },
+];
 
 impl Layered {
     /// Where regions are.
@@ -192,12 +195,7 @@ impl Layered {
                 region.hides = hides;
             }
         }
-        let pull = match self.phase {
-            Phase::Rigid(0) if level == 0 => PULL[1],
-            Phase::Rigid(_) if level == 0 => PULL[2],
-            _ => PULL[0],
-        };
-        self.share_out(Some(pull), options);
+        self.share_out(true, options);
         self.fit_surfaces();
     }
 
@@ -211,38 +209,44 @@ impl Layered {
         self.memory.charge(self.label_sigma);
     }
 
-    /// Gives every pixel to a region by the costs in memory.
-    pub(super) fn share_out(&mut self, pull: Option<f32>, options: &Options) {
-        if pull.is_none() {
+    /// Gives every pixel to a region by the costs in memory: of planes, or of rigid motions.
+    pub(super) fn share_out(&mut self, rigid: bool, options: &Options) {
+        if !rigid {
             self.memory.average();
         }
-        let sigma = if pull.is_some() {
-            self.label_sigma
-        } else {
-            self.sigma
-        };
+        let sigma = if rigid { self.label_sigma } else { self.sigma };
         let most = saturation(sigma);
-        let beta = match options.lambda {
-            Some(lambda) => (lambda / LENGTH_OF_PULL) as f32,
-            None => pull.unwrap_or(PLANAR_PULL) * most,
+        let lambda = match options.lambda {
+            Some(lambda) => lambda as f32,
+            None => LENGTH[usize::from(rigid)] * most,
         };
         self.weights = Weights {
             mu: self.prior(STIFFNESS[1], self.sigma, options).mu,
-            lambda: f64::from(beta) * LENGTH_OF_PULL,
+            lambda: f64::from(lambda),
             sigma: f64::from(self.sigma),
         };
         if self.regions.len() > 1 {
-            self.memory
-                .partition(beta, pull.is_some() && self.level > 0, &mut self.labels);
-            if pull.is_some() && self.level == 0 {
-                drop_small_components(&mut self.labels);
+            let outlines = Outlines {
+                lambda,
+                brightness: &self.scales[self.level].plain,
+                sigma,
+            };
+            let (memory, labels) = (&mut self.memory, &mut self.labels);
+            let reach = match (rigid, self.level) {
+                (false, _) => REACH[0],
+                (true, 0) => REACH[2],
+                (true, _) => REACH[1],
+            };
+            memory.partition(&outlines, most, reach, labels);
+            if rigid && self.level == 0 {
+                drop_small_components(labels);
             }
-            let [data, length] = self.memory.energy(beta, &self.labels);
-            (self.energy.data, self.energy.length) = (data, length);
-        } else if pull.is_none() {
-            self.energy.data = self.memory.energy(beta, &self.labels)[0];
+            self.energy.length = outlines.energy(labels);
         }
-        if pull.is_some() {
+        if self.regions.len() > 1 || !rigid {
+            self.energy.data = self.memory.data_energy(&self.labels);
+        }
+        if rigid {
             let memory = &self.memory;
             memory.offer(self.label_sigma, &self.labels, &mut self.offered);
         }

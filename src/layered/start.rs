@@ -62,7 +62,7 @@ impl Layered {
             planar_cost(scale, region, self.sigma, costs);
         }
         self.energy.smoothness = 0.0;
-        self.share_out(None, options);
+        self.share_out(false, options);
     }
 
     /// Motion, model and surface of every region from scratch.

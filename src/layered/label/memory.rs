@@ -1,8 +1,9 @@
 //! The planes that labelling works on, one set for each scale.
 
 use super::NOBODY;
+use super::average::box_blur;
 use super::data_cost::{chance_cost, charge};
-use super::partition::{argmin, box_blur, outline_energy, partition, pull};
+use super::partition::{Outlines, Reach, Swaps};
 use crate::grid::Grid;
 use crate::layered::estimate::saturation;
 use crate::layered::scale::Scale;
@@ -12,21 +13,18 @@ use crate::spread::spread;
 pub(super) const WINDOW: usize = 3;
 /// What a hidden pixel is charged, in units of what it costs to match by chance.
 const HIDDEN: f32 = 0.7;
-/// Half the side of the window, twice, of the costs that a coarse scale starts from.
-const RESTART_WINDOW: usize = 2;
 /// A pixel that costs its owner more than this share of the largest cost is not explained by it.
 const UNEXPLAINED: f32 = 0.6;
-/// The least K ∗ 1k under which such a pixel is offered to region k.
-const NEAR: f32 = 0.01;
+/// Pixels within which another region must be for such a pixel to be offered to it.
+const NEAR: usize = 4;
 
-/// Costs, pulls and what is passed from one to the other.
+/// Costs and what is passed from one to the other.
 pub(in crate::layered) struct Memory {
     /// For each region what each pixel costs it, grey levels².
     pub costs: Vec<Grid<f32>>,
-    /// For each region K ∗ 1k.
-    pub pulls: Vec<Grid<f32>>,
     pub chance: Grid<f32>,
     spare: Grid<f32>,
+    swaps: Swaps,
     sizes: Vec<f32>,
 }
 
@@ -35,9 +33,9 @@ impl Default for Memory {
         let empty = Grid::new(0, 0, 0.0);
         Self {
             costs: Vec::new(),
-            pulls: Vec::new(),
             chance: empty.clone(),
             spare: empty,
+            swaps: Swaps::default(),
             sizes: Vec::new(),
         }
     }
@@ -48,7 +46,6 @@ impl Memory {
     pub fn fit(&mut self, width: usize, height: usize, regions: usize) {
         let plane = || Grid::new(width, height, 0.0);
         self.costs = (0..regions).map(|_| plane()).collect();
-        self.pulls = (0..regions).map(|_| plane()).collect();
         self.chance = plane();
         self.spare = plane();
     }
@@ -89,25 +86,23 @@ impl Memory {
         }
     }
 
-    /// Labels by the costs as they are; `anew` starts from the least cost in a wide window instead of the labels.
-    pub fn partition(&mut self, beta: f32, anew: bool, labels: &mut Grid<u8>) {
-        if anew {
-            for (costs, wide) in self.costs.iter().zip(&mut self.pulls) {
-                wide.data_mut().copy_from_slice(costs.data());
-                box_blur(wide, RESTART_WINDOW, &mut self.spare);
-                box_blur(wide, RESTART_WINDOW, &mut self.spare);
-            }
-            argmin(&self.pulls, labels);
-        }
-        partition(&self.costs, beta, labels, &mut self.pulls, &mut self.spare);
+    /// Labels by the costs as they are, none larger than `most`.
+    pub fn partition(
+        &mut self,
+        outlines: &Outlines,
+        most: f32,
+        reach: Reach,
+        labels: &mut Grid<u8>,
+    ) {
+        self.swaps
+            .partition(&self.costs, outlines, most, reach, labels);
     }
 
-    /// What labels cost, and their outlines; also brings the pulls up to date.
-    pub fn energy(&mut self, beta: f32, labels: &Grid<u8>) -> [f64; 2] {
-        pull(labels, &mut self.pulls, &mut self.spare);
+    /// What labels cost, grey levels².
+    pub fn data_energy(&self, labels: &Grid<u8>) -> f64 {
         let own = labels.data().iter().enumerate();
-        let data = own.map(|(i, &k)| f64::from(self.costs[usize::from(k)].data()[i]));
-        [data.sum(), outline_energy(labels, &self.pulls, beta)]
+        own.map(|(i, &k)| f64::from(self.costs[usize::from(k)].data()[i]))
+            .sum()
     }
 
     /// Offers pixels that their owner does not explain to the nearest other region.
@@ -117,19 +112,33 @@ impl Memory {
             return;
         }
         let most = UNEXPLAINED * saturation(sigma);
-        for (i, (&owner, offered)) in labels.data().iter().zip(offered.data_mut()).enumerate() {
-            if self.costs[usize::from(owner)].data()[i] <= most {
-                continue;
-            }
-            let mut nearest = NEAR;
-            for (k, pull) in self.pulls.iter().enumerate() {
-                if k != usize::from(owner) && pull.data()[i] > nearest {
-                    nearest = pull.data()[i];
-                    *offered = k as u8;
+        for y in 0..labels.height() {
+            for x in 0..labels.width() {
+                let owner = labels[(x, y)];
+                if self.costs[usize::from(owner)][(x, y)] > most {
+                    offered[(x, y)] = nearest_other(labels, x, y, owner);
                 }
             }
         }
     }
+}
+
+/// The nearest region that is not `owner`.
+fn nearest_other(labels: &Grid<u8>, x: usize, y: usize, owner: u8) -> u8 {
+    let (mut found, mut least) = (NOBODY, usize::MAX);
+    for py in y.saturating_sub(NEAR)..(y + NEAR + 1).min(labels.height()) {
+        let left = x.saturating_sub(NEAR);
+        let row = &labels.row(py)[left..(x + NEAR + 1).min(labels.width())];
+        for (n, &label) in row.iter().enumerate() {
+            if label != owner {
+                let distance = (left + n).abs_diff(x).pow(2) + py.abs_diff(y).pow(2);
+                if distance < least {
+                    (found, least) = (label, distance);
+                }
+            }
+        }
+    }
+    found
 }
 
 #[cfg(test)]
@@ -158,15 +167,20 @@ mod tests {
 
     #[test]
     fn labels_follow_costs_and_noise_is_smoothed_away() {
-        for anew in [false, true] {
-            let mut memory = memory();
-            let mut labels = Grid::from_fn(60, 40, |x, _| u8::from(x >= 24));
-            let before = memory.energy(10.0, &labels);
-            memory.partition(10.0, anew, &mut labels);
-            assert!(wrong(&labels) < 60, "{anew}: {} wrong", wrong(&labels));
-            let after = memory.energy(10.0, &labels);
-            assert!(after[0] + after[1] < before[0] + before[1]);
-        }
+        let mut memory = memory();
+        let brightness = Grid::new(60, 40, 100.0);
+        let outlines = Outlines {
+            lambda: 15.0,
+            brightness: &brightness,
+            sigma: 1.0,
+        };
+        let mut labels = Grid::from_fn(60, 40, |x, _| u8::from(x >= 24));
+        let energy = |memory: &Memory, l: &Grid<u8>| memory.data_energy(l) + outlines.energy(l);
+        let before = energy(&memory, &labels);
+        let reach = Reach { band: 8, sweeps: 2 };
+        memory.partition(&outlines, 10.0, reach, &mut labels);
+        assert!(wrong(&labels) < 20, "{} wrong", wrong(&labels));
+        assert!(energy(&memory, &labels) < before);
     }
 
     #[test]
@@ -178,7 +192,6 @@ mod tests {
         memory.costs[0][(28, 20)] = most;
         memory.costs[0][(5, 20)] = most;
         let labels = Grid::from_fn(60, 40, |x, _| u8::from(x >= 30));
-        memory.energy(1.0, &labels);
         let mut offered = Grid::new(60, 40, 7);
         memory.offer(2.0, &labels, &mut offered);
         assert_eq!(offered[(28, 20)], 1);

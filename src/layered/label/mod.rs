@@ -1,7 +1,9 @@
 //! Stage 2 of a scale: which region each pixel belongs to.
 
+mod average;
 mod components;
 mod data_cost;
+mod max_flow;
 mod memory;
 mod occlusion;
 mod partition;
@@ -10,7 +12,7 @@ pub(super) use components::drop_small_components;
 pub(super) use data_cost::{planar_cost, rigid_residual};
 pub(super) use memory::Memory;
 pub(super) use occlusion::Occlusion;
-pub(super) use partition::LENGTH_OF_PULL;
+pub(super) use partition::{Outlines, Reach};
 
 use crate::grid::Grid;
 
