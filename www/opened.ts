@@ -1,7 +1,7 @@
 /** A pair that has been opened takes the place of the one before, and of what was found in that. */
 
 import { store, type State } from "./store";
-import type { Opened, Setup, Source } from "./worker/protocol";
+import type { Followed, Opened, Setup, Source } from "./worker/protocol";
 
 /**
  * Whether two pairs are of the same frames, perhaps the other way round: what was drawn on the one holds for
@@ -25,7 +25,7 @@ export function adopt(source: Source, opened: Opened, keep: boolean): void {
     frames: opened.frames,
     names: opened.names,
     truth: opened.truth,
-    ...(keep ? {} : drawn(opened.setup)),
+    ...(keep ? {} : { ...drawn(opened.setup), focalFrom: opened.focalFrom }),
     running: false,
     started: false,
     report: null,
@@ -39,6 +39,22 @@ export function adopt(source: Source, opened: Opened, keep: boolean): void {
   });
   // A view that needs the truth makes no sense without.
   if (!opened.truth && store.state.view === "compare") store.update({ view: "curves" });
+}
+
+/** The following pair of a film: what was found in the last one is where the next begins. */
+export function follows(source: Source & { kind: "files" }, { frames, shapes }: Followed): void {
+  store.state.frames?.forEach((frame) => frame.close());
+  const { camera } = store.state;
+  store.update({
+    source,
+    frames,
+    names: [source.first.name, source.second.name],
+    ...drawn({ shapes, camera, options: {} }),
+    focalFinding: store.state.focalFinding,
+    running: false,
+    showing: "first",
+    tool: "select",
+  });
 }
 
 /** What a pair brings with it, as if somebody had just drawn it. */

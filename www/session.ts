@@ -7,13 +7,22 @@
 
 import { during } from "./busy";
 import { announce } from "./dom";
-import { adopt, sameFrames } from "./opened";
+import { adopt, follows, sameFrames } from "./opened";
 import { paceOf } from "./pace";
 import { store, type State } from "./store";
 import { wantedBy } from "./views";
 import { ending, sentence } from "./wording";
 import { Client, Ended, type Remote } from "./worker/client";
-import type { Failure, MeshData, Part, Progress, Setup, Source, Wanted } from "./worker/protocol";
+import type {
+  Failure,
+  FrameFile,
+  MeshData,
+  Part,
+  Progress,
+  Setup,
+  Source,
+  Wanted,
+} from "./worker/protocol";
 
 /** Size at which built-in sequences are ray-cast. */
 const SCENE_SIZE = { width: 320, height: 240 };
@@ -67,6 +76,20 @@ export function open(source: Source, phrase: string): Promise<boolean> {
       if (store.state.opening === source) store.update({ opening: null });
     }
   });
+}
+
+/** Goes on to the next pair of a film, `next` after the second frame, from what was found; `false` when it is refused. */
+export function follow(next: FrameFile, note: string): Promise<boolean> {
+  return attempt("Taking up the next pair", () =>
+    client.inTurn(async (service) => {
+      const { source } = store.state;
+      if (source?.kind !== "files") return;
+      const followed = await service.follow(next);
+      forgetAsked();
+      follows({ kind: "files", first: source.second, second: next, note }, followed);
+      await look();
+    }),
+  );
 }
 
 /** Whether a sequence was asked for since the state was `then`, and was not refused. */

@@ -11,6 +11,7 @@ import init, {
 import type { Catalogues } from "./protocol";
 
 export {
+  displacement,
   findCurves,
   findFocal,
   Frame,

@@ -6,6 +6,7 @@
  */
 
 import {
+  displacement,
   findCurves,
   findFocal,
   Frame,
@@ -18,7 +19,10 @@ import {
 import type {
   Camera,
   Contour,
+  Displacement,
   FocalLength,
+  Followed,
+  FrameFile,
   MeshData,
   Opened,
   Part,
@@ -35,6 +39,8 @@ import type {
 
 /** Longest side of a frame sent to the page; more than a screen shows only costs memory. */
 const LONGEST_SIDE = 2048;
+/** Shortest side of frames between which motion is measured. */
+const MEASURABLE = 16;
 
 interface Owned {
   first: Frame;
@@ -48,6 +54,8 @@ export class Engine {
   private owned: Owned | null = null;
   private solver: Solver | null = null;
   private setup: Setup | null = null;
+  /** Curves that were carried on to the next pair, where the solver still has those of the pair before to go back to. */
+  private carried: Shape[] | null = null;
   /** Whether the solver has been at work since it was made or reset. */
   started = false;
 
@@ -64,6 +72,7 @@ export class Engine {
       this.owned = owned;
       this.solver = solver;
       this.setup = setup;
+      this.carried = null;
       this.started = false;
       const { scene } = owned;
       return {
@@ -74,6 +83,7 @@ export class Engine {
         frames,
         names: source.kind === "files" ? [source.first.name, source.second.name] : ["", ""],
         setup,
+        focalFrom: scene ? "f is the sequence's own." : "f is a guess: the frame's width.",
         truth: scene !== null,
       };
     } catch (error) {
@@ -94,6 +104,7 @@ export class Engine {
       solver.free();
       this.solver = replacement;
       this.setup = setup;
+      this.carried = null;
       this.started = false;
       return true;
     }
@@ -109,8 +120,29 @@ export class Engine {
     if (shapes) {
       solver.setCurves(JSON.stringify(setup.shapes));
       this.setup = setup;
+      this.carried = null;
     }
     return options || shapes;
+  }
+
+  /** The following frame of the film: the second becomes the first. */
+  async follow(file: FrameFile): Promise<Followed> {
+    const { owned, solver, setup } = this.present();
+    const next = Frame.decode(file.bytes, file.name);
+    try {
+      const frames: [ImageBitmap, ImageBitmap] = [await bitmap(owned.second), await bitmap(next)];
+      solver.next(next);
+      const shapes = carriedOn(setup.shapes, this.contours());
+      owned.first.free();
+      owned.baseline?.free();
+      this.owned = { first: owned.second, second: next, scene: null, baseline: null };
+      this.setup = { ...setup, shapes };
+      this.carried = shapes;
+      return { frames, shapes };
+    } catch (error) {
+      next.free();
+      throw error;
+    }
   }
 
   /** Curves to start from, where something moves by itself. */
@@ -145,7 +177,10 @@ export class Engine {
   }
 
   reset(): void {
-    this.present().solver.reset();
+    const { solver } = this.present();
+    if (this.carried) solver.setCurves(JSON.stringify(this.carried));
+    this.carried = null;
+    solver.reset();
     this.started = false;
   }
 
@@ -157,13 +192,22 @@ export class Engine {
     return JSON.parse(this.present().solver.contours()) as Contour[];
   }
 
-  async picture({ of, kind, params }: PictureRequest, longest: number): Promise<ImageBitmap> {
-    const picture = this.drawer(of).view(kind, JSON.stringify(params));
+  async picture(request: PictureRequest, longest: number): Promise<ImageBitmap> {
+    const picture = this.drawn(request);
     try {
       return await bitmap(picture, longest);
     } finally {
       picture.free();
     }
+  }
+
+  private drawn({ of, kind, params, compared }: PictureRequest): Picture {
+    const { owned, solver } = this.present();
+    const { scene } = owned;
+    const given = JSON.stringify(params);
+    const colours = compared && scene ? scene.sameColours(given) : given;
+    if (of === "found" && compared && scene) return solver.viewAligned(kind, colours, scene);
+    return this.drawer(of).view(kind, colours);
   }
 
   private drawer(of: Whose): { view(kind: string, params: string): Picture } {
@@ -218,16 +262,57 @@ export class Engine {
 }
 
 /** Decodes a file only to look at it. */
-export async function preview(file: {
-  name: string;
-  bytes: Uint8Array<ArrayBuffer>;
-}): Promise<{ width: number; height: number; picture: ImageBitmap }> {
+export async function preview(
+  file: FrameFile,
+  longest: number,
+): Promise<{ width: number; height: number; picture: ImageBitmap }> {
   const frame = Frame.decode(file.bytes, file.name);
   try {
-    return { width: frame.width, height: frame.height, picture: await bitmap(frame, 256) };
+    return { width: frame.width, height: frame.height, picture: await bitmap(frame, longest) };
   } finally {
     frame.free();
   }
+}
+
+/** How far things move between two pictures; `null` when they differ in size or are too small to tell. */
+export function measure(first: ImageBitmap, second: ImageBitmap): Displacement | null {
+  const { width, height } = first;
+  if (width !== second.width || height !== second.height) return null;
+  if (Math.min(width, height) < MEASURABLE) return null;
+  const canvas = new OffscreenCanvas(width, height);
+  const context = canvas.getContext("2d", { willReadFrequently: true })!;
+  const frame = (picture: ImageBitmap) => {
+    context.drawImage(picture, 0, 0);
+    const { data } = context.getImageData(0, 0, width, height);
+    return Frame.fromRgba(width, height, new Uint8Array(data.buffer));
+  };
+  const frames = [frame(first), frame(second)] as const;
+  try {
+    return JSON.parse(displacement(...frames)) as Displacement;
+  } finally {
+    frames.forEach((one) => one.free());
+  }
+}
+
+/** Each curve where its region is now, by the longest outline of that; where a region is lost, the curve stays. */
+function carriedOn(shapes: Shape[], contours: Contour[]): Shape[] {
+  return shapes.map((shape, k) => {
+    const own = contours.filter(({ label, closed }) => label === k + 1 && closed);
+    const longest = own.toSorted((a, b) => b.points.length - a.points.length)[0];
+    if (!longest || longest.points.length < 6) return shape;
+    const points: [number, number][] = [];
+    for (let i = 0; i + 1 < longest.points.length; i += 2) {
+      points.push([longest.points[i]!, longest.points[i + 1]!]);
+    }
+    return { kind: "polygon", points: thinned(points) };
+  });
+}
+
+/** No more points than a person would care to move. */
+function thinned(points: [number, number][]): [number, number][] {
+  const every = Math.ceil(points.length / 64);
+  const thin = points.filter((_, i) => i % every === 0);
+  return thin.length < 3 ? points : thin;
 }
 
 function take(source: Source): Owned {

@@ -8,7 +8,7 @@
 import * as Comlink from "comlink";
 
 import { catalogues, load, panicMessage } from "./core";
-import { Engine, preview } from "./engine";
+import { Engine, measure, preview } from "./engine";
 import type { Failure, PictureRequest, Progress, Service, Setup, Wanted } from "./protocol";
 
 /** Least time between two reliefs: a new triangulation is work for the page. */
@@ -201,17 +201,27 @@ const service: Service = {
     fail = failure;
   },
 
-  preview: (file) =>
+  preview: (file, longest) =>
     guard(async () => {
-      const seen = await preview(file);
+      const seen = await preview(file, longest);
       return Comlink.transfer(seen, [seen.picture]);
     }),
+
+  displacement: (first, second) => guard(() => measure(first, second)),
 
   open: (source, keep) =>
     guard(async () => {
       const opened = await engine.open(source, keep);
       stop();
       return Comlink.transfer(opened, opened.frames);
+    }),
+
+  follow: (next) =>
+    guard(async () => {
+      stop();
+      const followed = await engine.follow(next);
+      look.mesh.iterations = -1;
+      return Comlink.transfer(followed, followed.frames);
     }),
 
   find: (camera) => guard(() => engine.find(camera)),
