@@ -25,7 +25,11 @@ export async function admit(file: File, unnamed: string): Promise<FrameFile> {
   if (!picture) {
     const who =
       format.reader === "foreign" ? "which is not opened here" : "which this browser does not open";
-    throw new Error(`${name} is a ${format.name} file, ${who}; save it as JPEG, PNG or TIFF first`);
+    throw new Error(
+      `${name} is ${article(format.name)} ${format.name} file, ${who}; save it as JPEG, PNG or TIFF first`,
+    );
   }
   return pngOf(name, picture);
 }
+
+const article = (name: string) => (/^[AEIO]/.test(name) ? "an" : "a");
