@@ -1,7 +1,7 @@
 //! How far things move between two frames: whether depth can show in it, and whether it can be followed.
 //!
 //! ```text
-//! d = 95th percentile of |x' − x| over the matches that hold together, pixels
+//! d = 99th percentile of |x' − x| over the matches that hold together, pixels
 //! followed = matches between the frames / matches of the first frame with itself
 //! ```
 //!
@@ -18,7 +18,7 @@ use crate::grid::Grid;
 /// Neighbours move alike to this many pixels.
 const ALIKE: f32 = 1.5;
 /// Which of the displacements, in order, stands for the motion.
-const QUANTILE: f64 = 0.95;
+const QUANTILE: f64 = 0.99;
 /// Share of the frame's longer side from which depth shows well: a displacement is good to a tenth of a pixel, and this
 /// is three pixels and more on frames of the size that is measured.
 const SEEN: f64 = 0.01;

@@ -190,7 +190,7 @@ export async function webp(page: Page, frames: Grey[]): Promise<Buffer> {
   const parts = [riff("VP8X", Buffer.from([2, 0, 0, 0]), ...size), riff("ANIM", Buffer.alloc(6))];
   for (const frame of frames) {
     const still = await encoded(page, frame, "image/webp");
-    const stream = still.indexOf("VP8", 12, "latin1");
+    const stream = Math.max(still.indexOf("VP8 ", 12), still.indexOf("VP8L", 12));
     const length = still.readUInt32LE(stream + 4);
     const bits = still.subarray(stream, stream + 8 + length + (length % 2));
     parts.push(riff("ANMF", Buffer.alloc(6), ...size, small(40), Buffer.from([0]), bits));

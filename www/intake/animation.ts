@@ -13,8 +13,8 @@ export async function openAnimation(file: File, { name, type }: Format): Promise
     );
   }
   const decoder = new ImageDecoder({ data: await file.arrayBuffer(), type });
-  // Without this the number of frames may still grow.
-  await decoder.completed;
+  // Only then is the number of frames known, and grows no more.
+  await Promise.all([decoder.tracks.ready, decoder.completed]);
   const { selectedTrack } = decoder.tracks;
   if (!selectedTrack || selectedTrack.frameCount < 2) {
     decoder.close();

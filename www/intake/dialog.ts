@@ -15,7 +15,8 @@ export interface Sheet {
 
 /** Opens an empty dialog; `closed` is called once it is gone, however that came about. */
 export function openSheet(id: string, title: string, closed: () => void): Sheet {
-  document.getElementById(id)?.remove();
+  // Files may be pasted while one is open.
+  document.querySelector<HTMLDialogElement>("dialog.sheet")?.close();
   const heading = make("h2", { id: `${id}-title` }, title);
   const close = make("button", { type: "button", class: "quiet icon-only" });
   close.append(icon("close"), make("span", { class: "visually-hidden" }, "Close"));
@@ -41,6 +42,7 @@ export function openSheet(id: string, title: string, closed: () => void): Sheet 
     unwatch();
     dialog.remove();
     closed();
+    if (document.querySelector("dialog.sheet")) return;
     // A panel that was drawn anew has another button in its place.
     const again = opener?.isConnected ? opener : opener?.id && document.getElementById(opener.id);
     (again instanceof HTMLElement && again !== document.body ? again : byId("overlay")).focus({

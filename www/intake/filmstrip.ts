@@ -40,12 +40,16 @@ export function openFilmstrip(
   });
   const views = SIDES.map((side) => view(side, film, activate, (index) => choose(side, index)));
   const strip = mountStrip(film, (index) => choose(active, index));
-  const keys =
-    "Click a picture to put the marked number there. Keys: 1 and 2 mark a number, comma and full stop step by one frame.";
+  const keys = "Keys: 1 and 2 choose the number, comma and full stop step by one frame.";
   sheet.body.append(
     make("div", { class: "film-pair" }, views[0]!.element, views[1]!.element),
     strip.element,
-    make("p", { class: "note" }, keys),
+    make(
+      "p",
+      { class: "note" },
+      "A picture of the row takes the chosen number. ",
+      make("span", { class: "with-keys" }, keys),
+    ),
   );
   const proposing = button("Propose the second", () => proposeSecond());
   const cancel = button("Cancel", () => sheet.dialog.close());
@@ -61,6 +65,7 @@ export function openFilmstrip(
   });
   activate(0);
   SIDES.forEach(show);
+  views[0]!.focus();
   if (at) void tell();
   else void proposeSecond();
 
@@ -175,6 +180,7 @@ interface View {
   element: HTMLElement;
   show: (index: number) => void;
   mark: (on: boolean) => void;
+  focus: () => void;
 }
 
 /** One of the two frames, large, with its slider and single steps. */
@@ -193,7 +199,6 @@ function view(
   const head = make("label", { class: "film-head" }, radio, number, make("span", {}, name), when);
   const slider = make("input", { type: "range", min: 0, max: film.count - 1, step: 1 });
   slider.id = `film-slider-${side}`;
-  slider.autofocus = side === 0;
   slider.setAttribute("aria-label", name);
   slider.addEventListener("input", () => choose(Number(slider.value)));
   const step = (by: number, sign: string, word: string) => {
@@ -233,6 +238,7 @@ function view(
       later.disabled = index === film.count - 1;
       draw(index);
     },
+    focus: () => slider.focus(),
     mark(on) {
       radio.checked = on;
       element.classList.toggle("marked", on);

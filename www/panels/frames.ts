@@ -155,6 +155,11 @@ function mountDrop(): void {
     const box = zone.getBoundingClientRect();
     return event.clientX < box.left + box.width / 2 ? 0 : 1;
   };
+  /** As far as a browser tells before the drop. */
+  const holdsMany = (event: DragEvent) => {
+    const types = [...(event.dataTransfer?.items ?? [])].map(({ type }) => type);
+    return types.length > 2 || types.some((type) => /^video\/|^image\/gif/.test(type));
+  };
   const mark = (side: number | null) =>
     sides.forEach((element, i) => element.classList.toggle("over", i === side));
 
@@ -162,7 +167,10 @@ function mountDrop(): void {
     if (!carriesFiles(event)) return;
     event.preventDefault();
     zone.hidden = false;
-    mark(sideAt(event));
+    const many = holdsMany(event);
+    zone.classList.toggle("many", many);
+    sides[0]!.textContent = many ? "Choose two frames of these" : "First frame";
+    mark(many ? 0 : sideAt(event));
   });
   document.addEventListener("dragleave", (event) => {
     if (event.relatedTarget === null) zone.hidden = true;
