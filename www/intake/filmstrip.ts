@@ -238,7 +238,7 @@ function view(
       later.disabled = index === film.count - 1;
       draw(index);
     },
-    focus: () => slider.focus(),
+    focus: () => slider.focus({ preventScroll: true }),
     mark(on) {
       radio.checked = on;
       element.classList.toggle("marked", on);
