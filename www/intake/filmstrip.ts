@@ -8,6 +8,7 @@ import { make } from "../dom";
 import { percent } from "../format";
 import { ask } from "../session";
 import { store } from "../store";
+import { sentence } from "../wording";
 import type { Displacement } from "../worker/protocol";
 import { button, openSheet } from "./dialog";
 import type { Film } from "./film";
@@ -51,7 +52,10 @@ export function openFilmstrip(
       make("span", { class: "with-keys" }, keys),
     ),
   );
-  const proposing = button("Propose the second", () => proposeSecond());
+  const proposing = button("Propose the second", () => {
+    byHand = false;
+    look();
+  });
   const cancel = button("Cancel", () => sheet.dialog.close());
   const opening = button("Open these two", openPair, "primary");
   sheet.foot.append(proposing, cancel, opening);
@@ -66,8 +70,13 @@ export function openFilmstrip(
   activate(0);
   SIDES.forEach(show);
   views[0]!.focus();
-  if (at) void tell();
-  else void proposeSecond();
+  look();
+
+  /** Measures what is chosen, or first proposes a second frame. */
+  function look(): void {
+    const work = byHand ? tell() : proposeSecond();
+    work.catch((error: Error) => open && sheet.say(sentence(error.message)));
+  }
 
   function activate(side: Side): void {
     active = side;
@@ -89,8 +98,7 @@ export function openFilmstrip(
     activate(side);
     show(side);
     if (side === 1) byHand = true;
-    if (byHand) void tell();
-    else void proposeSecond();
+    look();
   }
 
   const measures = new Map<string, Promise<Displacement | null>>();
@@ -131,7 +139,6 @@ export function openFilmstrip(
     );
     if (stale()) return;
     chosen[1] = second;
-    byHand = false;
     show(1);
     await tell();
   }

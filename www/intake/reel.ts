@@ -1,7 +1,7 @@
 /** The film at hand: choosing a pair of its frames, and going on to the next pair from what was found. */
 
 import { announce } from "../dom";
-import { follow, run } from "../session";
+import { ask, follow, run } from "../session";
 import { store, type State } from "../store";
 import type { FrameFile } from "../worker/protocol";
 import type { Film } from "./film";
@@ -16,10 +16,11 @@ export function keep(film: Film): void {
 
 /** Asks for two frames of a film, and opens them. */
 export async function chooseFrom(film: Film): Promise<void> {
-  const { openFilmstrip } = await import("./filmstrip");
+  const loaded = await ask("Opening the filmstrip", () => import("./filmstrip"));
+  if (!loaded) return;
   const { reel } = store.state;
   const at = reel?.film === film ? reel.pair?.at : undefined;
-  openFilmstrip(film, at ?? null, (pair) => takeFrames(film, pair));
+  loaded.openFilmstrip(film, at ?? null, (pair) => takeFrames(film, pair));
 }
 
 /** Opens frames `at` of a film; whether they are any good. */

@@ -9,6 +9,7 @@ import { admit, bytesOf } from "./admit";
 import { openAnimation } from "./animation";
 import type { Film } from "./film";
 import { formatOf, headOf } from "./formats";
+import { photos } from "./photos";
 import { chooseFrom, keep } from "./reel";
 import { openBoth, put, slotOf, takePair } from "./slots";
 import { twoViews } from "./two-views";
@@ -56,7 +57,6 @@ async function filmOf(files: File[]): Promise<Film | null | undefined> {
   });
   if (!answer) return undefined;
   if (answer[0] || files.length < 3) return answer[0]!;
-  const { photos } = await import("./photos");
   return photos(files);
 }
 

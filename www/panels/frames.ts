@@ -4,6 +4,7 @@ import { byId, icon, make } from "../dom";
 import { chooseFrom, keep } from "../intake/reel";
 import { inUse, openBoth, swap } from "../intake/slots";
 import { takeAll } from "../intake/take";
+import { ask } from "../session";
 import { store, type State } from "../store";
 
 // Formats that no browser has a media type for, by their endings.
@@ -49,8 +50,8 @@ function mountSources(): void {
     input.value = "";
   });
   byId("camera-open").addEventListener("click", async () => {
-    const { openCamera } = await import("../intake/camera");
-    await openCamera((film) => {
+    const loaded = await ask("Opening the camera", () => import("../intake/camera"));
+    await loaded?.openCamera((film) => {
       keep(film);
       void chooseFrom(film);
     });
