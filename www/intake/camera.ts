@@ -40,7 +40,7 @@ export async function openCamera(taken: (film: Film) => void): Promise<void> {
   );
   const several = button("Take several", takeSeveral);
   const one = button("Take a shot", takeOne, "primary");
-  const cancel = button("Cancel", () => sheet.dialog.close());
+  const cancel = button("Cancel", () => sheet.close());
   sheet.body.append(
     make("div", { class: "camera-stage" }, video, held),
     choice,
@@ -127,7 +127,7 @@ export async function openCamera(taken: (film: Film) => void): Promise<void> {
 
   function hand(): void {
     handed = true;
-    sheet.dialog.close();
+    sheet.close();
     taken(shotsFilm(shots));
   }
 }

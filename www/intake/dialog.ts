@@ -11,12 +11,15 @@ export interface Sheet {
   foot: HTMLElement;
   /** A line that is read out when it changes. */
   say: (text: string) => void;
+  close: () => void;
 }
+
+/** Closes the one that is open: files may be pasted meanwhile. */
+let closePresent = () => {};
 
 /** Opens an empty dialog; `closed` is called once it is gone, however that came about. */
 export function openSheet(id: string, title: string, closed: () => void): Sheet {
-  // Files may be pasted while one is open.
-  document.querySelector<HTMLDialogElement>("dialog.sheet")?.close();
+  closePresent();
   const heading = make("h2", { id: `${id}-title` }, title);
   const close = make("button", { type: "button", class: "quiet icon-only" });
   close.append(icon("close"), make("span", { class: "visually-hidden" }, "Close"));
@@ -28,7 +31,6 @@ export function openSheet(id: string, title: string, closed: () => void): Sheet 
   const dialog = make("dialog", { id, class: "sheet", "aria-labelledby": heading.id });
   dialog.append(head, wrong, body, status, foot);
 
-  close.addEventListener("click", () => dialog.close());
   store.update({ message: null });
   const unwatch = store.watch(
     ({ message }) => [message],
@@ -38,20 +40,28 @@ export function openSheet(id: string, title: string, closed: () => void): Sheet 
     },
   );
   const opener = document.activeElement;
-  dialog.addEventListener("close", () => {
-    unwatch();
+  let open = true;
+  const shut = () => {
+    if (!open) return;
+    open = false;
+    closePresent = () => {};
+    dialog.close();
     dialog.remove();
+    unwatch();
     closed();
-    if (document.querySelector("dialog.sheet")) return;
     // A panel that was drawn anew has another button in its place.
     const again = opener?.isConnected ? opener : opener?.id && document.getElementById(opener.id);
     (again instanceof HTMLElement && again !== document.body ? again : byId("overlay")).focus({
       preventScroll: true,
     });
-  });
+  };
+  closePresent = shut;
+  close.addEventListener("click", shut);
+  // By the Escape key.
+  dialog.addEventListener("close", shut);
   document.body.append(dialog);
   dialog.showModal();
-  return { dialog, body, foot, say: (text) => (status.textContent = text) };
+  return { dialog, body, foot, say: (text) => (status.textContent = text), close: shut };
 }
 
 export function button(name: string, press: () => unknown, kind = ""): HTMLButtonElement {

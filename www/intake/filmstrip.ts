@@ -56,7 +56,7 @@ export function openFilmstrip(
     byHand = false;
     look();
   });
-  const cancel = button("Cancel", () => sheet.dialog.close());
+  const cancel = button("Cancel", () => sheet.close());
   const opening = button("Open these two", openPair, "primary");
   sheet.foot.append(proposing, cancel, opening);
   sheet.dialog.addEventListener("keydown", (event) => {
@@ -150,7 +150,7 @@ export function openFilmstrip(
       store.update({ message: error.message });
       return false;
     });
-    if (good) sheet.dialog.close();
+    if (good) sheet.close();
     else if (open) {
       sheet.say("");
       opening.disabled = false;
