@@ -151,13 +151,15 @@ test("a codec that the browser does not play is named", async ({ opened: page })
   expect(at).toBeGreaterThan(0);
   recorded.write("V_DV1", at);
   await any(page).setInputFiles(file("old.mkv", "video/x-matroska", recorded));
-  await expect(page.locator("#message")).toContainText(/old\.mkv is encoded as V_DV1.*convert it/);
+  const message = page.locator("#message");
+  const patient = { timeout: PATIENCE };
+  await expect(message).toContainText(/old\.mkv is encoded as V_DV1.*convert it/, patient);
   const box = Buffer.from("\0\0\0\x14ftypqt  \0\0\0\0qt  \0\0\0\x08mdat", "latin1");
   await any(page).setInputFiles(file("cut.mov", "video/quicktime", box));
-  await expect(page.locator("#message")).toContainText(/cut\.mov is of the kind MOV/);
+  await expect(message).toContainText(/cut\.mov is of the kind MOV/, patient);
   const avi = Buffer.from("RIFF\0\0\0\0AVI LIST", "latin1");
   await any(page).setInputFiles(file("old.avi", "video/avi", avi));
-  await expect(page.locator("#message")).toContainText(/old\.avi is of the kind AVI/);
+  await expect(message).toContainText(/old\.avi is of the kind AVI/, patient);
   await ready(page);
   expect(await read(page, (state) => state.source?.kind)).toBe("scene");
 });
