@@ -9,9 +9,12 @@ import { setup } from "./setup.js";
 export const FILE = "www/public/licences.txt";
 
 /** What the page is built from besides our own. */
-const BUNDLED = ["comlink", "three", "uplot"];
+const BUNDLED = ["comlink", "idb", "mediabunny", "three", "uplot"];
 
-/** Licences that ask for no more than that their text goes along, in the order of preference. */
+/**
+ * Licences that ask for no more than that their text goes along, in the order of preference; the last one for parts
+ * that are used unchanged, and for which it is said where their source is.
+ */
 const ACCEPTED = [
   "MIT",
   "Apache-2.0",
@@ -20,6 +23,8 @@ const ACCEPTED = [
   "BSD-2-Clause",
   "0BSD",
   "Unicode-3.0",
+  "ISC",
+  "MPL-2.0",
 ];
 
 /** @typedef {{ name: string, version: string, licence: string, text: string }} Part */
@@ -54,8 +59,14 @@ function crates() {
 function bundled() {
   return BUNDLED.map((name) => {
     const folder = join(root, "node_modules", name);
-    const { version, license } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
-    return part(name, version, license, folder);
+    const { version, license, repository } = JSON.parse(
+      readFileSync(join(folder, "package.json"), "utf8"),
+    );
+    const one = part(name, version, license, folder);
+    const source = String(repository?.url ?? repository).replace(/^git\+/, "");
+    return one.licence === "MPL-2.0"
+      ? { ...one, text: `${name} is used unchanged; its source is at ${source}\n\n${one.text}` }
+      : one;
   });
 }
 
