@@ -65,7 +65,9 @@ export async function clip(page: Page, frames: Grey[], type = "video/webm"): Pro
       const chunks: Blob[] = [];
       recorder.addEventListener("dataavailable", ({ data }) => chunks.push(data));
       const stopped = new Promise((done) => recorder.addEventListener("stop", done));
+      const started = new Promise((begun) => recorder.addEventListener("start", begun));
       recorder.start();
+      await started;
       for (const frame of frames) {
         const bytes = Uint8Array.from(atob(frame), (letter) => letter.charCodeAt(0));
         const picture = context.createImageData(width, height);
@@ -89,6 +91,30 @@ export async function clip(page: Page, frames: Grey[], type = "video/webm"): Pro
     },
   );
   return Buffer.from(text, "base64");
+}
+
+/** A Matroska file that says of its film no more than its codec. */
+export function matroska(codec: string): Buffer {
+  const element = (id: number[], ...data: (Buffer | number)[]) => {
+    const parts = data.map((part) => (typeof part === "number" ? Buffer.from([part]) : part));
+    const body = Buffer.concat(parts);
+    // A length in eight bytes, of which the first says so.
+    const length = Buffer.concat([Buffer.from([1, 0, 0, 0]), words(body.length)]);
+    return Buffer.concat([Buffer.from(id), length, body]);
+  };
+  const video = element([0xe0], element([0xb0], 160), element([0xba], 120));
+  const track = element(
+    [0xae],
+    element([0xd7], 1),
+    element([0x73, 0xc5], 1),
+    element([0x83], 1),
+    element([0x86], Buffer.from(codec)),
+    video,
+  );
+  return Buffer.concat([
+    element([0x1a, 0x45, 0xdf, 0xa3], element([0x42, 0x82], Buffer.from("matroska"))),
+    element([0x18, 0x53, 0x80, 0x67], element([0x16, 0x54, 0xae, 0x6b], track)),
+  ]);
 }
 
 /** An animated GIF of 128 greys; the compression's codes are all of eight bits, so that nothing is compressed. */
