@@ -6,7 +6,8 @@
 //! surface: a surface through the depths found is estimated anew under the motion found, and stays unless depth pixel by
 //! pixel still costs less than [`GAIN`] of it, or the two are more than a pixel apart over much of the region ([`APART`]).
 
-use super::estimate::{State, Surface, saturation};
+use super::estimate::{State, Surface, most_cost};
+use super::label::saturation;
 use super::refine::{Refined, match_range, refine, sweep};
 use super::scale::Scale;
 use super::solver::Layered;
@@ -153,7 +154,7 @@ impl Layered {
         else {
             return f64::INFINITY;
         };
-        let most = saturation(self.sigma);
+        let most = most_cost(self.sigma);
         let (mut sum, mut count) = (0.0, 0usize);
         for y in top..top + height {
             for x in left..left + width {
