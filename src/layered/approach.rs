@@ -27,15 +27,16 @@ impl Approach for Layered {
                     self.select_models(options);
                 }
             }
-            Phase::Refine | Phase::Done => {}
+            // Motion and depth pixel by pixel are found together.
+            Phase::Refine => self.refine_discontinuities(options),
+            Phase::Done => {}
         }
     }
 
     fn find_depth(&mut self, options: &Options) {
         match self.phase {
-            Phase::Planar(_) => {}
+            Phase::Planar(_) | Phase::Refine => {}
             Phase::Search | Phase::Rigid(_) | Phase::Done => self.estimate_depth(options),
-            Phase::Refine => self.refine_discontinuities(options),
         }
     }
 

@@ -5,8 +5,10 @@
 //! than [`GAIN`] of what the surface does, in the mean over the region. Often it was the motion that was wrong and not the
 //! surface: a surface through the depths found is estimated anew under the motion found, and stays unless depth pixel by
 //! pixel still costs less than [`GAIN`] of it, or the two are more than a pixel apart over much of the region ([`APART`]).
+//! If that surface is no better than the one before, all stays as it was.
 
-use super::estimate::{State, Surface, saturation};
+use super::estimate::{State, Surface, most_cost};
+use super::label::saturation;
 use super::refine::{Refined, match_range, refine, sweep};
 use super::scale::Scale;
 use super::solver::Layered;
@@ -81,18 +83,19 @@ impl Layered {
             let before = self.surface_cost(k);
             let after = self.mean_cost(k, &refined.motion, |x, y| refined.rho[(x, y)]);
             if after < GAIN[0] * before {
-                self.adopt(k, refined, after, options);
+                self.adopt(k, refined, [before, after], options);
             }
         }
     }
 
-    /// Takes the motion of `refined`, whose cost is `cost`, with a surface or with depth pixel by pixel.
-    fn adopt(&mut self, k: usize, refined: Refined, cost: f64, options: &Options) {
+    /// Takes the motion of `refined` with a surface or with depth pixel by pixel, if that costs less; costs are those of
+    /// the surface as it is and of `refined`.
+    fn adopt(&mut self, k: usize, refined: Refined, [before, cost]: [f64; 2], options: &Options) {
         let spacing = self.spacing();
         let prior = self.prior(STIFFNESS[0], self.sigma, options);
         let region = &mut self.regions[k];
-        region.model = MotionModel::Full;
-        region.ambiguous = false;
+        let own = (region.state.clone(), region.model, region.ambiguous);
+        (region.model, region.ambiguous) = (MotionModel::Full, false);
         let pixels = State {
             translation: refined.motion.translation,
             rotation: refined.motion.matrix(),
@@ -101,14 +104,16 @@ impl Layered {
         region.state = pixels.clone();
         region.fresh = false;
         self.improve_region(k, prior, STEPS, true);
-        if cost < GAIN[1] * self.surface_cost(k)
-            || self.share_apart(k, &pixels, &refined.rho) > APART
-        {
-            let region = &mut self.regions[k];
+        let smooth = self.surface_cost(k);
+        let apart = self.share_apart(k, &pixels, &refined.rho);
+        let region = &mut self.regions[k];
+        if cost < GAIN[1] * smooth || apart > APART {
             region.state = pixels;
             region.dense = Some(refined.rho);
-            region.fresh = false;
+        } else if smooth > GAIN[0] * before {
+            (region.state, region.model, region.ambiguous) = own;
         }
+        region.fresh = false;
     }
 
     /// Share of the pixels of region k that its surface moves by more than a pixel from where `other` moves them with `rho`.
@@ -153,7 +158,7 @@ impl Layered {
         else {
             return f64::INFINITY;
         };
-        let most = saturation(self.sigma);
+        let most = most_cost(self.sigma);
         let (mut sum, mut count) = (0.0, 0usize);
         for y in top..top + height {
             for x in left..left + width {

@@ -8,7 +8,7 @@ use std::hint::black_box;
 use glam::DVec3;
 
 use super::estimate::{NormalEquations, Prior, State, Support, Surface, turn};
-use super::label::{Memory, rigid_residual};
+use super::label::{Memory, Outlines, Reach, rigid_residual};
 use super::models::Problem;
 use super::refine::{aggregate, census, volume};
 use super::region::Region;
@@ -129,17 +129,34 @@ pub(crate) fn enter(
         }),
     );
 
+    // What a cut takes depends on the picture: only what must be read and written is counted.
     let mut memory = Memory::default();
     memory.fit(width, height, regions);
-    let labels = Grid::from_fn(width, height, |x, _| (x * regions / width) as u8);
-    // Two boxes both ways are twenty sums, for each region.
-    let (bytes, flops) = (1.0 + 8.0 * regions as f64, 26.0 * regions as f64);
+    for (k, costs) in memory.costs.iter_mut().enumerate() {
+        *costs = Grid::from_fn(width, height, |x, y| {
+            let own = x * regions / width == k;
+            ((x * 7 + y * 13) % 11) as f32 * if own { 0.5 } else { 1.0 }
+        });
+    }
+    let picture = frames[0].clone();
+    let start = Grid::from_fn(width, height, |x, _| {
+        ((x + 3).min(width - 1) * regions / width) as u8
+    });
+    let mut labels = start.clone();
     add(
-        "outlines of 3 regions",
-        bytes,
-        flops,
+        "cuts of 3 regions, a sweep",
+        2.0 + 4.0 * regions as f64,
+        0.0,
         Box::new(move || {
-            black_box(memory.energy(1.0, &labels));
+            let outlines = Outlines {
+                lambda: 8.0,
+                brightness: &picture,
+                sigma: 2.0,
+            };
+            let reach = Reach { band: 4, sweeps: 1 };
+            labels.data_mut().copy_from_slice(start.data());
+            memory.partition(&outlines, 16.0, reach, &mut labels);
+            black_box(labels.data());
         }),
     );
 

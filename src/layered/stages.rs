@@ -3,8 +3,8 @@
 //! Motion is found under weak charges for curvature and held, then the surface under strong ones: weak ones alone leave
 //! depth rough, strong ones alone turn T, since smoothness prefers the T that needs the least relief.
 
-use super::estimate::{Free, Prior, State, Support, saturation, surface_energy};
-use super::label::{Occlusion, Outlines, Reach, drop_small_components, rigid_residual};
+use super::estimate::{Free, Prior, State, Support, surface_energy};
+use super::label::{Occlusion, Outlines, Reach, drop_small_components, rigid_residual, saturation};
 use super::models::{Problem, free};
 use super::solver::{Layered, Phase};
 use crate::motion_model::MotionModel;

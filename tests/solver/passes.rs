@@ -63,7 +63,7 @@ fn after_the_first_scale_labels_and_flow_are_useful_already() {
         let expected = solver.report().expected.unwrap();
         whole(&solver.interpretation(), sequence.truth.regions());
         let early = scores(&solver, &sequence);
-        assert!(early.labels_wrong < 0.03, "{name}: {}", early.labels_wrong);
+        assert!(early.labels_wrong < 0.04, "{name}: {}", early.labels_wrong);
         assert!(early.aee.unwrap() < 0.08, "{name}: {early:?}");
         // What is expected is right to a factor of three.
         let ratio = expected.labels / early.labels_wrong;
@@ -117,7 +117,13 @@ fn depth_alone_says_that_there_is_none_yet_and_moves_only_depth_later() {
         let before = solver.interpretation();
         if solver.step_depth().is_ok() {
             let after = solver.interpretation();
-            assert!(after.labels == before.labels && after.motions == before.motions);
+            assert!(after.labels == before.labels);
+            // T's length follows depth: ρ has mean 1.
+            for (a, b) in after.motions.iter().zip(&before.motions) {
+                assert!(a.rotation == b.rotation);
+                let [s, t] = [a, b].map(|m| m.translation.normalize_or_zero());
+                assert!((s - t).length() < 1e-9);
+            }
             steps += 1;
         }
     }

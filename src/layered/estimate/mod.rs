@@ -11,7 +11,7 @@ mod surface;
 
 pub(crate) use candidates::{Blocks, OTHER_DIRECTION};
 pub(crate) use curvature::{Prior, surface_energy};
-pub(crate) use normal_equations::{NormalEquations, Support, saturation};
+pub(crate) use normal_equations::{NormalEquations, Support, most_cost};
 pub(crate) use planar::{Degree, PlanarFlow};
 pub(crate) use state::{State, turn};
 pub(crate) use step::{Estimator, Free, Outcome};

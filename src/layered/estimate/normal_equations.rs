@@ -19,9 +19,10 @@ use super::rows::Rows;
 use super::state::State;
 use super::surface::Surface;
 
-/// The largest cost of a residual, (κσ)² with κ = 2, grey levels².
-pub(crate) fn saturation(sigma: f32) -> f32 {
-    4.0 * sigma * sigma
+/// The largest cost of a residual, (κσ)² with κ = 3, grey levels². With the κ = 2 by which labels are judged, motion and
+/// labels hold each other where they are: twice as many labels are wrong in strong noise.
+pub(crate) fn most_cost(sigma: f32) -> f32 {
+    9.0 * sigma * sigma
 }
 
 /// Bins a grey level of the histogram from which σ comes.
@@ -94,7 +95,7 @@ impl NormalEquations {
         self.motion = Default::default();
         self.cost = 0.0;
         let mut histogram = [0u32; 512];
-        let inverse = 1.0 / saturation(problem.sigma);
+        let inverse = 1.0 / most_cost(problem.sigma);
         let mut lanes = [[[0.0f32; 8]; 6]; 6];
         for y in top..top + height {
             surface.row(level, y, left, &mut self.rows.rho);

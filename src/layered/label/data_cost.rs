@@ -8,7 +8,6 @@
 //! of a pixel would be favoured. Grey levels². A pixel that leaves the frame says nothing of who owns it: it is charged
 //! [`LEAVES`] of the largest cost.
 
-use super::super::estimate::saturation;
 use super::super::region::Region;
 use super::super::scale::Scale;
 use super::memory::WINDOW;
@@ -17,6 +16,11 @@ use crate::window::Window;
 
 /// What a pixel that leaves the frame is charged, in units of the largest cost.
 const LEAVES: f32 = 0.6;
+
+/// The largest cost, (κσ)² with κ = 2, grey levels².
+pub(crate) fn saturation(sigma: f32) -> f32 {
+    4.0 * sigma * sigma
+}
 
 #[inline(always)]
 fn cost(e: f32, most: f32) -> f32 {

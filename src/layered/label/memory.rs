@@ -1,11 +1,10 @@
 //! The planes that labelling works on, one set for each scale.
 
-use super::NOBODY;
 use super::average::box_blur;
 use super::data_cost::{chance_cost, charge};
 use super::partition::{Outlines, Reach, Swaps};
+use super::{NOBODY, saturation};
 use crate::grid::Grid;
-use crate::layered::estimate::saturation;
 use crate::layered::scale::Scale;
 use crate::spread::spread;
 

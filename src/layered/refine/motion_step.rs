@@ -14,7 +14,6 @@ use glam::{DQuat, DVec3};
 use super::linearisation::Linearisation;
 use crate::camera::RigidMotion;
 use crate::grid::Grid;
-use crate::layered::estimate::saturation;
 use crate::layered::view::View;
 use crate::linalg::{solve, tangents};
 
@@ -119,7 +118,7 @@ impl Rows {
 
 /// Adds a pixel to the lower triangle of its block.
 fn add(m: &mut [[f32; 7]; 7], j: [f32; 6], e: f32, sigma: f32) {
-    let weight = 1.0 / (1.0 + e * e / saturation(sigma));
+    let weight = 1.0 / (1.0 + e * e / (4.0 * sigma * sigma));
     let weight = weight * weight / (sigma * sigma);
     let j = [j[0], j[1], j[2], j[3], j[4], j[5], e];
     for k in 0..7 {

@@ -227,7 +227,7 @@ fn sums_are_those_of_a_loop_over_pixels() {
             let gx = 0.5 * (gx + f64::from(scale.gradient[0][(x, y)]));
             let gy = 0.5 * (gy + f64::from(scale.gradient[1][(x, y)]));
             let h = focal / q.z * DVec3::new(gx, gy, -(gx * q.x + gy * q.y) / q.z);
-            let square = e * e / f64::from(saturation(problem.sigma));
+            let square = e * e / f64::from(most_cost(problem.sigma));
             cost += e * e / (1.0 + square);
             let weight = (1.0 + square).powi(-2);
             let by_omega = turned.cross(h);
