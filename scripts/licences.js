@@ -8,13 +8,11 @@ import { setup } from "./setup.js";
 
 export const FILE = "www/public/licences.txt";
 
-/** What the page is built from besides our own. */
-const BUNDLED = ["comlink", "three", "uplot"];
-
 /** Licences that ask for no more than that their text goes along, in the order of preference. */
 const ACCEPTED = [
   "MIT",
   "Apache-2.0",
+  "ISC",
   "Zlib",
   "BSD-3-Clause",
   "BSD-2-Clause",
@@ -51,8 +49,16 @@ function crates() {
   });
 }
 
+/** Packages that the page imports; Vite puts them into it. */
 function bundled() {
-  return BUNDLED.map((name) => {
+  const sources = readdirSync(join(root, "www"), { recursive: true, encoding: "utf8" });
+  const imports = sources
+    .filter((name) => name.endsWith(".ts"))
+    .map((name) => readFileSync(join(root, "www", name), "utf8"))
+    .flatMap((text) => [
+      ...text.matchAll(/\b(?:from|import\(?)\s*"((?:@[^"/]+\/)?[^"./@][^"/]*)/g),
+    ]);
+  return [...new Set(imports.map(([, name]) => String(name)))].map((name) => {
     const folder = join(root, "node_modules", name);
     const { version, license } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
     return part(name, version, license, folder);
