@@ -178,6 +178,8 @@ test("settings and resets are undone as well, in any view", async ({ opened: pag
 });
 
 test("a cancelled run gives back the result from before it", async ({ opened: page }) => {
+  // Long enough to be cancelled, however slow the machine.
+  await page.getByLabel("Preset").selectOption("paper");
   await solve(page);
   const passes = await read(page, ({ report }) => report!.iterations);
   await until(page, ({ heldFound }) => heldFound !== null);
