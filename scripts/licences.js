@@ -8,9 +8,6 @@ import { setup } from "./setup.js";
 
 export const FILE = "www/public/licences.txt";
 
-/** What the page is built from besides our own. */
-const BUNDLED = ["comlink", "idb", "mediabunny", "three", "uplot"];
-
 /**
  * Licences that ask for no more than that their text goes along, in the order of preference; the last one for parts
  * that are used unchanged, and for which it is said where their source is.
@@ -18,12 +15,12 @@ const BUNDLED = ["comlink", "idb", "mediabunny", "three", "uplot"];
 const ACCEPTED = [
   "MIT",
   "Apache-2.0",
+  "ISC",
   "Zlib",
   "BSD-3-Clause",
   "BSD-2-Clause",
   "0BSD",
   "Unicode-3.0",
-  "ISC",
   "MPL-2.0",
 ];
 
@@ -56,8 +53,16 @@ function crates() {
   });
 }
 
+/** Packages that the page imports; Vite puts them into it. */
 function bundled() {
-  return BUNDLED.map((name) => {
+  const sources = readdirSync(join(root, "www"), { recursive: true, encoding: "utf8" });
+  const imports = sources
+    .filter((name) => name.endsWith(".ts"))
+    .map((name) => readFileSync(join(root, "www", name), "utf8"))
+    .flatMap((text) => [
+      ...text.matchAll(/\b(?:from|import\(?)\s*"((?:@[^"/]+\/)?[^"./@][^"/]*)/g),
+    ]);
+  return [...new Set(imports.map(([, name]) => String(name)))].map((name) => {
     const folder = join(root, "node_modules", name);
     const { version, license, repository } = JSON.parse(
       readFileSync(join(folder, "package.json"), "utf8"),

@@ -17,14 +17,15 @@ const HEADERS = {
 };
 
 /**
- * Serves until the process ends; the address once it listens.
+ * The server and its address, once it listens.
  * @param {string} host
- * @param {number} port
- * @returns {Promise<string>}
+ * @param {number} port 0 for any that is free
+ * @param {string} [folder] the built page
+ * @returns {Promise<{ server: import("node:http").Server, address: string }>}
  */
-export async function serve(host, port) {
+export async function serve(host, port, folder = join(root, "dist")) {
   const { default: sirv } = await import("sirv");
-  const files = sirv(join(root, "dist"), {
+  const files = sirv(folder, {
     brotli: true,
     gzip: true,
     etag: true,
@@ -44,11 +45,16 @@ export async function serve(host, port) {
   );
   return new Promise((resolve, reject) => {
     server.on("error", reject);
-    server.listen(port, host, () => resolve(`http://${host}:${port}/`));
+    server.listen(port, host, () => {
+      const given = server.address();
+      const at = typeof given === "object" && given ? given.port : port;
+      resolve({ server, address: `http://${host}:${at}/` });
+    });
   });
 }
 
 await ifMain(import.meta.url, async () => {
   const { values } = parseArgs({ options: { host: { type: "string" }, port: { type: "string" } } });
-  console.log(await serve(values.host ?? "127.0.0.1", Number(values.port ?? 5173)));
+  const { address } = await serve(values.host ?? "127.0.0.1", Number(values.port ?? 5173));
+  console.log(address);
 });

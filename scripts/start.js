@@ -47,6 +47,6 @@ await ifMain(import.meta.url, async () => {
   if (dev) await recordings();
   else await build();
 
-  const address = dev ? await serveSources(host, port) : await serve(host, port);
+  const address = dev ? await serveSources(host, port) : (await serve(host, port)).address;
   console.log(`\nRelievo is at ${address}\nPress Ctrl-C to stop.`);
 });

@@ -1,7 +1,7 @@
 // npm test: every check there is, each timed, and a summary. `npm test -- page cli` runs only the
 // stages whose names contain one of those words.
 
-import { existsSync, readdirSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, readdirSync, readFileSync, rmSync, statSync } from "node:fs";
 import { createServer } from "node:net";
 import { join } from "node:path";
 
@@ -53,12 +53,17 @@ function rustTests() {
   return run("cargo", ["test", "--locked", "--no-fail-fast", "--lib", "--tests"]);
 }
 
+/** Bytes of the packed crate: the sources and little else. */
+const LARGEST_CRATE = 1_000_000;
+
 /** What `cargo package` makes builds by itself, with its examples; those in its documentation run. */
 async function crate() {
   await run("cargo", ["package", "--locked", "--allow-dirty", "--no-verify"]);
   const targets = join(root, process.env.CARGO_TARGET_DIR ?? "target");
   const { version } = JSON.parse(readFileSync(join(root, "package.json"), "utf8"));
   const folder = join(targets, "package", `relievo-${version}`);
+  const { size } = statSync(`${folder}.crate`);
+  if (size > LARGEST_CRATE) throw new Trouble(`The crate has ${size} bytes: what is in it?`);
   rmSync(folder, { recursive: true, force: true });
   await run("tar", ["-xzf", `${folder}.crate`, "-C", join(targets, "package")]);
   const test = ["test", "--locked", "--manifest-path", join(folder, "Cargo.toml")];

@@ -150,10 +150,11 @@ export const viewOf = (id: string): View => VIEWS.find((view) => view.id === id)
 
 /** The views that the core can draw and that make sense for what is open. */
 export function available({ catalogues, truth }: Readonly<State>): View[] {
-  const known = new Set(catalogues?.views.map(({ kind }) => kind));
+  // Until the core has told what it draws, all there are: a recording is shown by then.
+  const known = catalogues && new Set(catalogues.views.map(({ kind }) => kind));
   return VIEWS.filter(({ id, kinds }) => {
     if (id === "compare") return truth;
-    return kinds(store.state.viewParams).every((kind) => known.has(kind));
+    return !known || kinds(store.state.viewParams).every((kind) => known.has(kind));
   });
 }
 

@@ -1,22 +1,25 @@
 //! The bytes are files of a result: the first tells which, the rest is the file, or all files of one result.
 
 use arbitrary::{Result, Unstructured};
+use relievo::file::kept::{self, Precision};
 use relievo::file::motion::{MotionFile, RegionMotion, Seconds};
 use relievo::file::result::{self, ResultFiles};
 use relievo::file::{flo, pfm, png};
+use relievo::options::MAX_CURVES;
 use relievo::view::{self, ViewParams};
-use relievo::{Flow, Frame, Grid, score};
+use relievo::{Flow, Frame, Grid, Interpretation, score};
 
 /// What is read can be written, and is then read as the same; a result that is read can be scored and drawn.
 pub fn files(bytes: &[u8]) {
     let Some((which, rest)) = bytes.split_first() else {
         return;
     };
-    match which % 5 {
+    match which % 6 {
         0 => read_flow(rest),
         1 => read_depth(rest),
         2 => read_labels(rest),
         3 => read_motion(&String::from_utf8_lossy(rest)),
+        5 => read_kept(rest),
         _ => drop(read_result(&mut Unstructured::new(rest))),
     }
 }
@@ -49,6 +52,21 @@ fn read_motion(text: &str) {
         // Not a number is not equal to itself.
         assert_eq!(format!("{motion:?}"), format!("{again:?}"));
     }
+}
+
+fn read_kept(bytes: &[u8]) {
+    if let Ok(found) = kept::read(bytes, "it") {
+        kept_as_is(&found);
+        drawn(&found);
+    }
+}
+
+fn kept_as_is(found: &Interpretation) {
+    let again = kept::read(&kept::write(found, Precision::Exact), "it").unwrap();
+    assert_eq!(bits(&found.depth), bits(&again.depth));
+    assert_eq!(found.labels, again.labels);
+    // Less is kept of it, but something is.
+    kept::read(&kept::write(found, Precision::Visible), "it").unwrap();
 }
 
 /// Five files that mostly belong together, with any bits for numbers.
@@ -99,15 +117,24 @@ fn read_result(u: &mut Unstructured) -> Result<()> {
     assert_eq!(read.regions(), usize::from(described));
     score::compare(&read, &read).unwrap();
     result::write(&read, &motion).unwrap();
+    if read.regions() <= MAX_CURVES + 1 {
+        kept_as_is(&read);
+    }
+    drawn(&read);
+    Ok(())
+}
+
+/// Every picture of it, where it is large enough for a frame.
+fn drawn(found: &Interpretation) {
+    let (width, height) = (found.labels.width(), found.labels.height());
     let grey = Grid::from_fn(width, height, |x, y| (x * y % 256) as f32);
     if let Ok(frame) = Frame::from_grey(grey) {
         let params = ViewParams::default();
         for kind in view::KINDS {
-            view::draw(kind, &frame, &read, &[], &params).unwrap();
+            view::draw(kind, &frame, found, &[], &params).unwrap();
         }
-        view::mesh(&frame, &read, &params);
+        view::mesh(&frame, found, &params);
     }
-    Ok(())
 }
 
 fn bits(grid: &Grid<f32>) -> Vec<u32> {

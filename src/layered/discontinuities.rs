@@ -5,7 +5,8 @@
 //! than [`GAIN`] of what the surface does, in the mean over the region. Often it was the motion that was wrong and not the
 //! surface: a surface through the depths found is estimated anew under the motion found, and stays unless depth pixel by
 //! pixel still costs less than [`GAIN`] of it, or the two are more than a pixel apart over much of the region ([`APART`]).
-//! If that surface is no better than the one before, all stays as it was.
+//! Where the two are nowhere a pixel apart, there is no step. If that surface is no better than the one before, all stays
+//! as it was.
 
 use super::estimate::{State, Surface, most_cost};
 use super::label::saturation;
@@ -107,7 +108,7 @@ impl Layered {
         let smooth = self.surface_cost(k);
         let apart = self.share_apart(k, &pixels, &refined.rho);
         let region = &mut self.regions[k];
-        if cost < GAIN[1] * smooth || apart > APART {
+        if apart > 0.0 && cost < GAIN[1] * smooth || apart > APART {
             region.state = pixels;
             region.dense = Some(refined.rho);
         } else if smooth > GAIN[0] * before {

@@ -14,7 +14,7 @@ test("the list of licences is current", () => {
 
 test("it knows what the WebAssembly and the page are made of, and no tools", () => {
   const text = licences();
-  for (const name of ["image", "glam", "wasm-bindgen", "three", "uplot"]) {
+  for (const name of ["image", "glam", "wasm-bindgen", "three", "comlink", "idb"]) {
     assert.match(text, new RegExp(`^  ${name} \\d`, "m"));
   }
   for (const name of ["vite", "syn", "arbitrary"]) {

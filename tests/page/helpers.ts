@@ -44,7 +44,8 @@ export function read<T>(page: Page, select: (state: State) => T): Promise<T> {
 /** Asked from here again and again: the page's policy lets nobody leave code in it to wait. */
 export async function until(page: Page, holds: (state: State) => boolean): Promise<void> {
   const answer = () => page.evaluate(`(${holds})(window.relievo)`).catch(() => false);
-  await expect.poll(answer, { timeout: PATIENCE, message: String(holds) }).toBe(true);
+  const often = { timeout: PATIENCE, intervals: [50], message: String(holds) };
+  await expect.poll(answer, often).toBe(true);
 }
 
 export const passes = (page: Page): Promise<number> =>

@@ -178,12 +178,14 @@ test("settings and resets are undone as well, in any view", async ({ opened: pag
 });
 
 test("a cancelled run gives back the result from before it", async ({ opened: page }) => {
+  // Long enough to be cancelled, however slow the machine.
+  await page.getByLabel("Preset").selectOption("paper");
   await solve(page);
   const passes = await read(page, ({ report }) => report!.iterations);
   await until(page, ({ heldFound }) => heldFound !== null);
   await page.getByLabel("Pace").selectOption("slow enough to watch");
   await page.getByRole("button", { name: "Run again" }).click();
-  await until(page, ({ running, report }) => running && report!.iterations === 2);
+  await until(page, ({ running, report }) => running && report!.iterations < 6);
   await page.getByRole("button", { name: "Cancel" }).click();
   await until(page, ({ started, running }) => !started && !running);
   await page.getByRole("button", { name: "Undo" }).click();

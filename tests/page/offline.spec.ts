@@ -1,6 +1,10 @@
 /** The page keeps itself: works without a network after the first visit, says when it is new, and asks nobody else. */
 
-import { expect, look, read, test, until } from "./helpers";
+import { appendFileSync, cpSync, rmSync } from "node:fs";
+import { join } from "node:path";
+
+import { serve } from "../../scripts/serve.js";
+import { expect, look, PATIENCE, read, test, until } from "./helpers";
 
 test.use({ serviceWorkers: "allow" });
 
@@ -22,26 +26,34 @@ test("after the first visit it works without a network", async ({ page, context 
   await context.setOffline(false);
 });
 
-test("a new version says so, and takes over when it is asked to", async ({ page, context }) => {
-  await page.goto("./#blocks");
-  await until(page, ({ frames, busy }) => frames !== null && busy === null);
-  await page.evaluate(installed);
-  await page.waitForFunction(() => navigator.serviceWorker.controller !== null);
-  await expect(page.locator("#update")).toBeHidden();
-  // The same worker with another build's name.
-  await context.route(/service-worker\.js$/, async (route) => {
-    const response = await route.fetch();
-    const body = (await response.text()).replace(/relievo-(?=`|"|')/, "relievo-next-");
-    await route.fulfill({ response, body: `${body}\n// next` });
-  });
-  await page.evaluate(() => navigator.serviceWorker.ready.then((it) => it.update()));
-  await expect(page.locator("#update")).toBeVisible();
-  await expect(page.locator("#update")).toContainText("new version");
-  const loaded = page.waitForEvent("load");
-  await page.getByRole("button", { name: "Reload" }).click();
-  await loaded;
-  await until(page, ({ frames, busy }) => frames !== null && busy === null);
-  expect(await read(page, ({ source }) => source)).toMatchObject({ name: "blocks" });
+test("a new version says so, and takes over when it is asked to", async ({ page }, info) => {
+  // Served from a copy, in which another build can be put.
+  const folder = info.outputPath("dist");
+  cpSync("dist", folder, { recursive: true });
+  const { server, address } = await serve("127.0.0.1", 0, folder);
+  try {
+    await page.goto(`${address}#blocks`);
+    await until(page, ({ frames, busy }) => frames !== null && busy === null);
+    await page.evaluate(installed);
+    await page.waitForFunction(() => navigator.serviceWorker.controller !== null);
+    await expect(page.locator("#update")).toBeHidden();
+    const worker = join(folder, "service-worker.js");
+    appendFileSync(worker, "// another build\n");
+    for (const ending of [".br", ".gz"]) rmSync(worker + ending, { force: true });
+    await page.evaluate(() => navigator.serviceWorker.ready.then((it) => it.update()));
+    const offer = page.locator("#update");
+    await expect(offer).toContainText("new version", { timeout: PATIENCE });
+    await expect(offer).toBeVisible({ timeout: PATIENCE });
+    const loaded = page.waitForEvent("load", { timeout: PATIENCE });
+    await page.getByRole("button", { name: "Reload" }).click();
+    await loaded;
+    await until(page, ({ frames, busy }) => frames !== null && busy === null);
+    await expect(offer).toBeHidden();
+    expect(await read(page, ({ source }) => source)).toMatchObject({ name: "blocks" });
+  } finally {
+    server.closeAllConnections();
+    server.close();
+  }
 });
 
 test("the manifest makes it installable", async ({ page, request, baseURL }) => {

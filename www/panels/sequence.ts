@@ -92,7 +92,7 @@ function fill(select: HTMLSelectElement, { catalogues, source, memory }: Readonl
 
 /** Browsers that draw lists themselves show the picture, too; others the name alone. */
 function option(value: string, title: string, thumbnail?: string): HTMLOptionElement {
-  const element = make("option", { value, label: null });
+  const element = make("option", { value, "aria-label": title });
   if (thumbnail) {
     element.append(
       make("img", { src: thumbnail, alt: "", width: 72, height: 54, loading: "lazy" }),
