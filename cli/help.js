@@ -10,7 +10,7 @@ const WIDTH = 96;
 /** @param {Core} core */
 export function help(core) {
   /** @type {import("./index.js").Limits} */
-  const { minSide, maxSide, maxCurves } = JSON.parse(core.limits());
+  const { minSide, maxPixels, maxCurves } = JSON.parse(core.limits());
   /** @type {import("./index.js").SceneEntry[]} */
   const scenes = JSON.parse(core.sceneCatalogue());
   const all = presets(core);
@@ -23,7 +23,7 @@ Usage:
   relievo score FOUND TRUTH [--json]
 
 Coordinates are pixels, (0, 0) the centre of the top-left pixel. Frames are PNG, JPEG, PNM, WebP,
-BMP or TIFF, from ${minSide}×${minSide} to ${maxSide}×${maxSide} pixels.
+BMP or TIFF, from ${minSide}×${minSide} pixels to ${maxPixels / 1e6} megapixels.
 
 Frames and curves:
 ${table([

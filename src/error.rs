@@ -2,7 +2,7 @@
 //! what to do about it.
 
 use crate::camera::{FARTHEST_CENTRE, FOCAL_RANGE};
-use crate::frames::{MAX_SIDE, MIN_SIDE};
+use crate::frames::{MAX_PIXELS, MAX_SIDE, MIN_SIDE};
 use crate::options::MAX_CURVES;
 
 /// What can be wrong with what a user gave.
@@ -30,6 +30,19 @@ pub enum Error {
         /// Its height.
         height: usize,
     },
+    /// A picture of too many pixels.
+    #[error(
+        "{name} is {width}×{height} pixels; at most {most} megapixels can be worked on: crop or resize it",
+        most = MAX_PIXELS / 1_000_000
+    )]
+    Pixels {
+        /// The picture, as the user knows it.
+        name: String,
+        /// Its width.
+        width: usize,
+        /// Its height.
+        height: usize,
+    },
     /// A picture whose header claims more than this machine can address.
     #[error(
         "{name} claims to be larger than can be unpacked here; both sides must lie between {MIN_SIDE} and {MAX_SIDE} pixels: crop or resize it"
@@ -37,18 +50,6 @@ pub enum Error {
     TooLarge {
         /// The picture, as the user knows it.
         name: String,
-    },
-    /// Frames that a way of solving has no memory for.
-    #[error(
-        "frames of {width}×{height} pixels need more memory than there is when solved coarse to fine, which takes at most {most} megapixels here: make both smaller, or choose the preset paper"
-    )]
-    Memory {
-        /// Their width.
-        width: usize,
-        /// Their height.
-        height: usize,
-        /// What fits, in millions of pixels.
-        most: usize,
     },
     /// A flat array that does not fill the picture it is said to be.
     #[error("{what} of {width}×{height} pixels needs {expected} values, but {found} were given")]

@@ -49,7 +49,7 @@ impl Layered {
             .filter(|&k| self.is_unexplained(k))
             .collect();
         // Not in each other's light: matches and the sweep compare frames less their local mean.
-        let frames = [&self.pair.first().grey, &self.pair.second().grey];
+        let frames = [self.pair.first(), self.pair.second()].map(|frame| &*frame.grey);
         let all = matches(frames[0], frames[1]);
         let camera = self.scales[0].camera;
         let mut adopted = Vec::new();

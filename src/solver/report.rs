@@ -55,6 +55,8 @@ pub struct Report {
     pub level: usize,
     /// Number of scales.
     pub levels: usize,
+    /// How many times frames are shrunk for the work.
+    pub factor: usize,
     /// The terms of (7).
     pub energy: Terms,
     /// Total energy after each pass; comparable between passes with no break between them.
@@ -111,13 +113,14 @@ impl Report {
         let states = solver.approach.regions();
         let labels = solver.approach.labels();
         let (level, levels) = solver.approach.scale();
+        let factor = solver.working.factor;
         let owned = pixels(labels, states.len());
         let regions: Vec<RegionReport> = (states.into_iter().zip(owned))
             .enumerate()
             .map(|(label, (state, pixels))| RegionReport {
                 label,
-                // At a coarser scale a pixel stands for four, sixteen, … of the frame's.
-                pixels: pixels << (2 * level),
+                // A pixel of the scale at work stands for several of the frame's.
+                pixels: (pixels << (2 * level)) * factor * factor,
                 share: pixels as f64 / labels.len() as f64,
                 translation: state.motion.translation.to_array(),
                 rotation: state.motion.rotation.to_array(),
@@ -139,7 +142,11 @@ impl Report {
             },
             history: solver.history.energies.clone(),
             breaks: solver.history.breaks.clone(),
-            expected: solver.approach.expected(),
+            factor,
+            expected: solver.approach.expected().map(|e| Expected {
+                flow: e.flow * factor as f64,
+                ..e
+            }),
             warnings: warnings(&regions),
             regions,
             weights: solver.approach.weights(),

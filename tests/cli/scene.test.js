@@ -76,7 +76,7 @@ describe("a wrong command line ends with 2 and a sentence", () => {
     ["no name", ["scene"], /one sequence must be named/],
     ["an unknown name", ["scene", "circus"], /"circus" is no built-in sequence.*squares/],
     ["no size", ["scene", "squares", "--size", "big"], /--size big is not of the form WxH/],
-    ["too small a size", ["scene", "squares", "--size", "8x8"], /8×8.*between 16 and 4096/],
+    ["too small a size", ["scene", "squares", "--size", "8x8"], /8×8.*between 16 and 30000/],
     ["too large a size", ["scene", "squares", "--size", "99999x20"], /99999×20/],
     ["one folder to score", ["score", folder], /two folders are needed/],
   ];

@@ -1,0 +1,133 @@
+//! An unpacked picture: samples as its file holds them, turned upright on their way into a frame.
+
+use image::DynamicImage;
+use image::metadata::Orientation;
+
+use super::frame::{Frame, over_grey};
+
+/// Samples in row order, channel by channel within a pixel.
+pub(super) enum Samples {
+    /// 0–255.
+    Bytes(Vec<u8>),
+    /// 0–65535.
+    Words(Vec<u16>),
+    /// 0–1.
+    Floats(Vec<f32>),
+}
+
+/// An unpacked picture.
+pub(super) struct Raw {
+    /// Width and height as stored.
+    pub size: (usize, usize),
+    /// 1 for grey, 2 for grey and alpha, 3 for RGB, 4 for RGB and alpha.
+    pub channels: usize,
+    pub samples: Samples,
+    /// What makes it stand upright.
+    pub orientation: Orientation,
+}
+
+impl Raw {
+    pub fn new(picture: DynamicImage, orientation: Orientation) -> Self {
+        let size = (picture.width() as usize, picture.height() as usize);
+        let (channels, samples) = match picture {
+            DynamicImage::ImageLuma8(p) => (1, Samples::Bytes(p.into_raw())),
+            DynamicImage::ImageLumaA8(p) => (2, Samples::Bytes(p.into_raw())),
+            DynamicImage::ImageRgb8(p) => (3, Samples::Bytes(p.into_raw())),
+            DynamicImage::ImageRgba8(p) => (4, Samples::Bytes(p.into_raw())),
+            DynamicImage::ImageLuma16(p) => (1, Samples::Words(p.into_raw())),
+            DynamicImage::ImageLumaA16(p) => (2, Samples::Words(p.into_raw())),
+            DynamicImage::ImageRgb16(p) => (3, Samples::Words(p.into_raw())),
+            DynamicImage::ImageRgba16(p) => (4, Samples::Words(p.into_raw())),
+            other => (4, Samples::Floats(other.to_rgba32f().into_raw())),
+        };
+        Self {
+            size,
+            channels,
+            samples,
+            orientation,
+        }
+    }
+
+    /// The frame that it is.
+    pub fn frame(&self) -> Frame {
+        match &self.samples {
+            Samples::Bytes(data) => self.frame_of(data),
+            Samples::Words(data) => self.frame_of(data),
+            Samples::Floats(data) => self.frame_of(data),
+        }
+    }
+
+    fn frame_of<S: Sample>(&self, data: &[S]) -> Frame {
+        let (width, height) = self.upright_size();
+        let channels = self.channels;
+        Frame::from_rows(width, height, |y, out, known| {
+            for (x, (out, known)) in out.iter_mut().zip(known).enumerate() {
+                let at = channels * self.place(x, y);
+                let p = &data[at..at + channels];
+                let colour = match *p {
+                    [g] | [g, _] => [g.level(); 3],
+                    [r, g, b] | [r, g, b, _] => [r.level(), g.level(), b.level()],
+                    _ => [0.0; 3],
+                };
+                if let &([_, a] | [_, _, _, a]) = p {
+                    let [r, g, b] = colour;
+                    *out = over_grey([r, g, b, a.level()]);
+                    *known = a.level() > 0.0;
+                } else {
+                    *out = colour;
+                }
+            }
+        })
+    }
+
+    fn upright_size(&self) -> (usize, usize) {
+        let (width, height) = self.size;
+        match self.orientation {
+            Orientation::Rotate90
+            | Orientation::Rotate270
+            | Orientation::Rotate90FlipH
+            | Orientation::Rotate270FlipH => (height, width),
+            _ => (width, height),
+        }
+    }
+
+    /// Number of the stored pixel that is seen at (x, y).
+    fn place(&self, x: usize, y: usize) -> usize {
+        let (w, h) = self.size;
+        let (from_x, from_y) = match self.orientation {
+            Orientation::NoTransforms => (x, y),
+            Orientation::FlipHorizontal => (w - 1 - x, y),
+            Orientation::FlipVertical => (x, h - 1 - y),
+            Orientation::Rotate180 => (w - 1 - x, h - 1 - y),
+            Orientation::Rotate90 => (y, h - 1 - x),
+            Orientation::Rotate270 => (w - 1 - y, x),
+            Orientation::Rotate90FlipH => (y, x),
+            Orientation::Rotate270FlipH => (w - 1 - y, h - 1 - x),
+        };
+        from_y * w + from_x
+    }
+}
+
+/// A sample as a file holds it.
+trait Sample: Copy {
+    /// In grey levels, 0–255.
+    fn level(self) -> f32;
+}
+
+impl Sample for u8 {
+    fn level(self) -> f32 {
+        f32::from(self)
+    }
+}
+
+impl Sample for u16 {
+    fn level(self) -> f32 {
+        f32::from(self) / 257.0
+    }
+}
+
+impl Sample for f32 {
+    fn level(self) -> f32 {
+        255.0 * self
+    }
+}
