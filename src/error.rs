@@ -10,7 +10,7 @@ use crate::options::MAX_CURVES;
 pub enum Error {
     /// The bytes are no image, or one that is cut short.
     #[error(
-        "{name} cannot be read as an image ({reason}); PNG, JPEG, PNM, WebP, BMP and TIFF are understood"
+        "{name} cannot be read as an image ({reason}); PNG, JPEG, PNM, WebP, BMP, GIF and TIFF are understood"
     )]
     Decode {
         /// The file, as the user knows it.
@@ -89,17 +89,29 @@ pub enum Error {
     },
     /// Files of one result that are of different sizes.
     #[error(
-        "{name} is {}×{}, labels.png {}×{} pixels; all files must be those of one result",
-        .size.0, .size.1, .labels.0, .labels.1
+        "{name} is {}×{}, {than} {}×{} pixels; all files must be those of one result",
+        .size.0, .size.1, .expected.0, .expected.1
     )]
     FilesDiffer {
         /// The file that differs.
         name: &'static str,
         /// Its width and height.
         size: (usize, usize),
-        /// Width and height of labels.png.
-        labels: (usize, usize),
+        /// The file that it differs from.
+        than: &'static str,
+        /// Width and height of that.
+        expected: (usize, usize),
     },
+    /// Files none of which can be scored.
+    #[error(
+        "there is nothing to score: give a folder with labels.png, flow.flo, depth.pfm or motion.json, or one such file"
+    )]
+    NothingToScore,
+    /// Two results that have nothing in common.
+    #[error(
+        "the two have nothing in common that could be compared; both must have labels, flow, depth or motions"
+    )]
+    NothingShared,
     /// Motions that are not those of the regions.
     #[error(
         "motion.json describes regions {described:?}, labels.png goes up to {last}; it must describe each from 0 to {last} once"

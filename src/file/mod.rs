@@ -1,7 +1,9 @@
 //! Results as files that other programs read: flow, depth, labels, motion, pictures.
 
 pub mod flo;
+pub mod kitti;
 pub mod motion;
+pub mod parts;
 pub mod pfm;
 pub mod png;
 pub mod result;
