@@ -75,7 +75,7 @@ pub mod solver;
 mod srgb;
 pub mod view;
 pub mod window;
-mod working;
+pub mod working;
 
 pub use camera::{Camera, RigidMotion};
 pub use curves::{Contour, Shape};

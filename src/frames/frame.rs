@@ -9,6 +9,9 @@
 
 use std::sync::Arc;
 
+use super::lens::Lens;
+use super::levels::Levels;
+use super::note::Note;
 use super::shrink::{shrunk, shrunk_colours, shrunk_mask};
 use crate::error::Error;
 use crate::grid::Grid;
@@ -32,6 +35,12 @@ pub struct Frame {
     pub rgb: Arc<Grid<[u8; 3]>>,
     /// 1 where the file says that there is no picture (alpha 0), 0 elsewhere; `None` where there is one everywhere.
     pub unknown: Option<Arc<Grid<u8>>>,
+    /// What its file says of the lens.
+    pub lens: Option<Lens>,
+    /// Colours of 16 bits, where the file has them and most of their range is empty.
+    pub(super) deep: Option<Arc<Grid<[u16; 3]>>>,
+    /// Grey levels in a step of the file's numbers; 0 where brightness was computed.
+    pub(super) step: f32,
 }
 
 impl Frame {
@@ -73,6 +82,9 @@ impl Frame {
             grey: Arc::new(if n > 1 { shrunk(&grey, n) } else { grey }),
             rgb,
             unknown: None,
+            lens: None,
+            deep: None,
+            step: 0.0,
         })
     }
 
@@ -123,6 +135,19 @@ impl Frame {
             grey: Arc::new(grey),
             rgb: Arc::new(rgb),
             unknown: unknown.map(Arc::new),
+            lens: None,
+            deep: None,
+            step: 1.0,
+        }
+    }
+
+    /// The frame with its levels stretched where it uses few, as it is shown by itself.
+    pub fn stretched(&self) -> Self {
+        let levels = Levels::of(&[self]);
+        if levels.narrow() {
+            levels.stretch(self)
+        } else {
+            self.clone()
         }
     }
 
@@ -158,6 +183,9 @@ impl Frame {
             grey: Arc::new(self.grey_shrunk(n)),
             rgb: Arc::new(shrunk_colours(&self.rgb, n)),
             unknown: (self.unknown.as_ref()).map(|mask| Arc::new(shrunk_mask(mask, n))),
+            lens: self.lens.map(|lens| lens.shrunk(n)),
+            deep: None,
+            step: self.step,
         }
     }
 }
@@ -167,15 +195,18 @@ impl Frame {
 pub struct FramePair {
     first: Frame,
     second: Frame,
+    /// The second as it was given.
+    unstretched: Frame,
+    notes: Vec<Note>,
 }
 
 impl FramePair {
-    /// Pairs two frames.
+    /// Pairs two frames. Where they use few levels of brightness, both are stretched alike.
     ///
     /// # Errors
     /// [`Error::FramesDiffer`] in size, [`Error::FrameConstant`] when one has no contrast,
     /// [`Error::FramesIdentical`] when no pixel changes.
-    pub fn new(first: Frame, second: Frame) -> Result<Self, Error> {
+    pub fn new(mut first: Frame, mut second: Frame) -> Result<Self, Error> {
         if !first.rgb.same_size(&second.rgb) {
             return Err(Error::FramesDiffer {
                 first: (first.width(), first.height()),
@@ -191,7 +222,35 @@ impl FramePair {
         if first.grey == second.grey {
             return Err(Error::FramesIdentical);
         }
-        Ok(Self { first, second })
+        let mut notes = Vec::new();
+        if first.interlaced() {
+            notes.push(Note::Interlaced);
+        }
+        let levels = Levels::of(&[&first, &second]);
+        let unstretched = second.clone();
+        if levels.narrow() {
+            notes.push(levels.note(first.step.max(second.step)));
+            (first, second) = (levels.stretch(&first), levels.stretch(&second));
+        }
+        Ok(Self {
+            first,
+            second,
+            unstretched,
+            notes,
+        })
+    }
+
+    /// The pair of the second frame and the one that follows it.
+    ///
+    /// # Errors
+    /// Those of [`FramePair::new`].
+    pub fn following(&self, next: Frame) -> Result<Self, Error> {
+        Self::new(self.unstretched.clone(), next)
+    }
+
+    /// What a user should know of the two.
+    pub fn notes(&self) -> &[Note] {
+        &self.notes
     }
 
     /// The frame whose labels, depth and motion are sought.
@@ -216,9 +275,12 @@ impl FramePair {
 
     /// Both frames shrunk `n` times, as [`Frame::shrunk`] does it.
     pub fn shrunk(&self, n: usize) -> Self {
+        let second = self.second.shrunk(n);
         Self {
             first: self.first.shrunk(n),
-            second: self.second.shrunk(n),
+            unstretched: second.clone(),
+            second,
+            notes: self.notes.clone(),
         }
     }
 }

@@ -3,7 +3,11 @@
 use image::DynamicImage;
 use image::metadata::Orientation;
 
+use std::sync::Arc;
+
 use super::frame::{Frame, over_grey};
+use super::levels::Levels;
+use crate::grid::Grid;
 
 /// Samples in row order, channel by channel within a pixel.
 pub(super) enum Samples {
@@ -60,7 +64,7 @@ impl Raw {
     fn frame_of<S: Sample>(&self, data: &[S]) -> Frame {
         let (width, height) = self.upright_size();
         let channels = self.channels;
-        Frame::from_rows(width, height, |y, out, known| {
+        let mut frame = Frame::from_rows(width, height, |y, out, known| {
             for (x, (out, known)) in out.iter_mut().zip(known).enumerate() {
                 let at = channels * self.place(x, y);
                 let p = &data[at..at + channels];
@@ -77,7 +81,16 @@ impl Raw {
                     *out = colour;
                 }
             }
-        })
+        });
+        frame.step = S::STEP;
+        if S::STEP < 1.0 && Levels::of(&[&frame]).narrow() {
+            let deep = Grid::from_fn(width, height, |x, y| {
+                let p = &data[channels * self.place(x, y)..][..channels];
+                [0, 1, 2].map(|c| p[if channels < 3 { 0 } else { c }].word())
+            });
+            frame.deep = Some(Arc::new(deep));
+        }
+        frame
     }
 
     fn upright_size(&self) -> (usize, usize) {
@@ -110,24 +123,54 @@ impl Raw {
 
 /// A sample as a file holds it.
 trait Sample: Copy {
+    /// Grey levels in a step.
+    const STEP: f32;
+
     /// In grey levels, 0–255.
     fn level(self) -> f32;
+
+    /// In 16 bits.
+    fn word(self) -> u16 {
+        (257.0 * self.level()).round().clamp(0.0, 65_535.0) as u16
+    }
 }
 
 impl Sample for u8 {
+    const STEP: f32 = 1.0;
+
     fn level(self) -> f32 {
         f32::from(self)
     }
 }
 
 impl Sample for u16 {
+    const STEP: f32 = 1.0 / 257.0;
+
     fn level(self) -> f32 {
         f32::from(self) / 257.0
     }
 }
 
 impl Sample for f32 {
+    const STEP: f32 = 0.0;
+
     fn level(self) -> f32 {
         255.0 * self
+    }
+}
+
+impl Samples {
+    /// Samples that came channel after channel, pixel after pixel.
+    pub fn interleaved(self, channels: usize) -> Self {
+        fn of<S: Copy>(planes: &[S], channels: usize) -> Vec<S> {
+            let count = planes.len() / channels;
+            let pixel = |i| (0..channels).map(move |c| planes[c * count + i]);
+            (0..count).flat_map(pixel).collect()
+        }
+        match self {
+            Self::Bytes(data) => Self::Bytes(of(&data, channels)),
+            Self::Words(data) => Self::Words(of(&data, channels)),
+            Self::Floats(data) => Self::Floats(of(&data, channels)),
+        }
     }
 }

@@ -120,7 +120,7 @@ impl Solver {
     /// # Errors
     /// What [`FramePair::new`] finds wrong with the new pair; then nothing is changed.
     pub fn next(&mut self, frame: Frame) -> Result<(), Error> {
-        let pair = FramePair::new(self.pair.second().clone(), frame)?;
+        let pair = self.pair.following(frame)?;
         self.pair = Rc::new(pair);
         self.working = Working::new(&self.pair, &self.camera, self.options.detail);
         self.shown.take();

@@ -6,6 +6,7 @@ use super::approach::pixels;
 use super::weights::Weights;
 use super::{Solver, Status};
 use crate::energy::Energy;
+use crate::frames::Note;
 use crate::motion_model::MotionModel;
 
 /// Seconds spent in each step.
@@ -70,6 +71,8 @@ pub struct Report {
     pub regions: Vec<RegionReport>,
     /// The weights in force.
     pub weights: Weights,
+    /// What a user should know of the frames; `warnings` has it in words.
+    pub notes: Vec<Note>,
     /// What a user should know, in sentences.
     pub warnings: Vec<String>,
     /// Time spent.
@@ -147,7 +150,10 @@ impl Report {
                 flow: e.flow * factor as f64,
                 ..e
             }),
-            warnings: warnings(&regions),
+            warnings: (solver.pair.notes().iter().map(Note::to_string))
+                .chain(warnings(&regions))
+                .collect(),
+            notes: solver.pair.notes().to_vec(),
             regions,
             weights: solver.approach.weights(),
             seconds: Times {
@@ -158,7 +164,7 @@ impl Report {
     }
 }
 
-fn warnings(regions: &[RegionReport]) -> Vec<String> {
+fn warnings(regions: &[RegionReport]) -> impl Iterator<Item = String> {
     let vanished = regions
         .iter()
         .filter(|r| r.pixels == 0)
@@ -173,5 +179,5 @@ fn warnings(regions: &[RegionReport]) -> Vec<String> {
         };
         format!("{name} has two explanations that fit equally well; the one with less relief is shown.")
     });
-    vanished.chain(ambiguous).collect()
+    vanished.chain(ambiguous)
 }

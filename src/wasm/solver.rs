@@ -173,6 +173,16 @@ impl Solver {
         self.change().next(frame.0.clone())
     }
 
+    /// The first frame as it is shown and solved: both are stretched alike where they use few levels.
+    pub fn first(&self) -> Frame {
+        Frame(self.solver.pair().first().clone())
+    }
+
+    /// The second frame, the same way.
+    pub fn second(&self) -> Frame {
+        Frame(self.solver.pair().second().clone())
+    }
+
     /// Where it stands: `running`, `converged`, `exhausted` or `diverged`.
     #[wasm_bindgen(getter, unchecked_return_type = "Status")]
     pub fn status(&self) -> String {

@@ -4,8 +4,10 @@
 //! the option *Detail* says. n is the same both ways, so pixels stay square and f is divided by n. What is found is
 //! brought back to the size of the frames by `upsampling.rs`.
 
+mod size;
 mod upsampling;
 
+pub use size::{WorkingSize, sizes};
 pub(crate) use upsampling::upsampled;
 
 use std::rc::Rc;
@@ -63,7 +65,7 @@ impl Working {
 }
 
 /// How many times frames of that size are shrunk.
-pub fn factor(width: usize, height: usize, detail: Detail) -> usize {
+pub(crate) fn factor(width: usize, height: usize, detail: Detail) -> usize {
     let pixels = width * height;
     let least = least_factor(pixels);
     let wanted = match detail.pixels() {

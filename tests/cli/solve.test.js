@@ -199,12 +199,21 @@ describe("a wrong command line ends with 2 and a sentence", () => {
   /** @type {[string, string[], RegExp][]} */
   const cases = [
     ["nothing", [], /--help/],
-    ["one frame", [first, ...FOCAL], /two frames are needed, one was given/],
+    [
+      "one frame",
+      [first, ...FOCAL],
+      /two frames are needed, one was given, and .*first\.pgm holds no/,
+    ],
+    ["a choice of two files' frames", [...pair, ...FOCAL, "--frames", "1,2"], /--frames chooses/],
     ["three frames", [...pair, first, ...FOCAL], /two frames are needed, 3 were given/],
     ["no focal length", pair, /focal length is missing/],
     ["a focal length of 0", [...pair, "--focal", "0"], /focal length is 0/],
     ["a negative focal length", [...pair, "--focal", "-5"], /focal length is -5/],
-    ["a focal length that is no number", [...pair, "--focal", "wide"], /--focal wide.*F or auto/],
+    [
+      "a focal length that is no number",
+      [...pair, "--focal", "wide"],
+      /--focal wide.*F, exif or auto/,
+    ],
     ["an infinite focal length", [...pair, "--focal", "Infinity"], /--focal Infinity is not/],
     ["half a centre", [...pair, ...FOCAL, "--centre", "5"], /--centre 5 is not of the form X,Y/],
     ["half a circle", [...pair, ...FOCAL, "--circle", "5,5"], /is not of the form X,Y,R/],

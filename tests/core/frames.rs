@@ -8,12 +8,25 @@ use std::io::Cursor;
 use image::{DynamicImage, ImageFormat};
 use relievo::frames::{MAX_PIXELS, MAX_SIDE, MIN_SIDE, MOST_WORKED};
 use relievo::{Error, Frame, FramePair, Grid};
+use tiff::encoder::TiffEncoder;
+use tiff::encoder::colortype::{Gray16, RGB8};
 
 const W: usize = 24;
 const H: usize = 18;
 
 fn encode(picture: &DynamicImage, format: ImageFormat) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
+    if format == ImageFormat::Tiff {
+        let mut tiff = TiffEncoder::new(&mut bytes).unwrap();
+        let (width, height) = (picture.width(), picture.height());
+        match picture {
+            DynamicImage::ImageRgb8(p) => tiff.write_image::<RGB8>(width, height, p.as_raw()),
+            DynamicImage::ImageLuma16(p) => tiff.write_image::<Gray16>(width, height, p.as_raw()),
+            other => panic!("{:?}", other.color()),
+        }
+        .unwrap();
+        return bytes.into_inner();
+    }
     picture.write_to(&mut bytes, format).unwrap();
     bytes.into_inner()
 }

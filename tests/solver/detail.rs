@@ -6,7 +6,7 @@ use relievo::{FramePair, Options, Shape, Solver, Status, scene, score};
 const W: usize = 800;
 const H: usize = 600;
 
-fn solved(name: &str, detail: Detail) -> (Solver, scene::Sequence) {
+fn fresh(name: &str, detail: Detail) -> (Solver, scene::Sequence) {
     let made = scene::render(name, W, H).unwrap();
     let [first, second] = made.frames.clone();
     let pair = FramePair::new(first, second).unwrap();
@@ -14,7 +14,12 @@ fn solved(name: &str, detail: Detail) -> (Solver, scene::Sequence) {
         detail,
         ..Options::default()
     };
-    let mut solver = Solver::new(pair, made.truth.camera, &made.curves, options).unwrap();
+    let solver = Solver::new(pair, made.truth.camera, &made.curves, options).unwrap();
+    (solver, made)
+}
+
+fn solved(name: &str, detail: Detail) -> (Solver, scene::Sequence) {
+    let (mut solver, made) = fresh(name, detail);
     while solver.step() == Status::Running {}
     (solver, made)
 }
@@ -89,7 +94,8 @@ fn outlines_follow_the_edges_of_the_frame() {
 
 #[test]
 fn more_detail_starts_anew_at_a_larger_size() {
-    let (mut solver, made) = solved("squares", Detail::Fast);
+    let (mut solver, made) = fresh("squares", Detail::Fast);
+    solver.step();
     let options = Options {
         detail: Detail::Full,
         max_passes: 1,
@@ -107,11 +113,11 @@ fn more_detail_starts_anew_at_a_larger_size() {
 
 #[test]
 fn a_smaller_picture_is_told_its_camera_and_flow() {
-    let (solver, _) = solved("squares", Detail::Full);
+    let (solver, _) = fresh("squares", Detail::Full);
     assert_eq!(solver.shrunk_for(W * H), 1);
     // Never coarser than the work, so that nothing is lost twice.
     assert_eq!(solver.shrunk_for(1000), 1);
-    let (solver, _) = solved("squares", Detail::Fast);
+    let (solver, _) = fresh("squares", Detail::Fast);
     assert_eq!(solver.shrunk_for(W * H - 1), 2);
     let frames = solver.frames_shrunk(2);
     assert_eq!((frames.width(), frames.height()), (W / 2, H / 2));
