@@ -1,9 +1,24 @@
 import { defineConfig, devices } from "@playwright/test";
 
 import { chromiumFlags, findChromium } from "./scripts/chromium.js";
+import { findFirefox } from "./scripts/firefox.js";
 
 // `npm test` picks a free port; by itself `npx playwright test` needs a page built by `npm run build`.
 const port = Number(process.env["RELIEVO_PORT"] ?? 4179);
+
+const browsers = {
+  chromium: {
+    ...devices["Desktop Chrome"],
+    launchOptions: { executablePath: findChromium(), args: chromiumFlags },
+  },
+  // An installed one, not Playwright's own: see scripts/firefox.cjs.
+  firefox: {
+    browserName: "firefox" as const,
+    channel: "moz-firefox",
+    viewport: { width: 1280, height: 720 },
+    launchOptions: { executablePath: findFirefox() },
+  },
+};
 
 export default defineConfig({
   testDir: "tests/page",
@@ -12,13 +27,16 @@ export default defineConfig({
   timeout: 60_000,
   reporter: [["list"]],
   use: {
-    ...devices["Desktop Chrome"],
+    ...browsers[process.env["RELIEVO_BROWSER"] === "firefox" ? "firefox" : "chromium"],
     baseURL: `http://127.0.0.1:${port}/`,
+    // Playwright waits for functions by putting code into the page; closed.spec.ts keeps the policy in force.
+    bypassCSP: true,
+    // Requests that a service worker makes cannot be watched; offline.spec.ts lets it in.
+    serviceWorkers: "block",
     trace: "retain-on-failure",
-    launchOptions: { executablePath: findChromium(), args: chromiumFlags },
   },
   webServer: {
-    command: `npx vite preview --host 127.0.0.1 --port ${port} --strictPort`,
+    command: `node scripts/serve.js --port ${port}`,
     url: `http://127.0.0.1:${port}/`,
   },
 });

@@ -1,6 +1,8 @@
 /// <reference lib="esnext.disposable" />
+import type { InitInput } from "../pkg/relievo.js";
+
 /**
- * Relievo as a library for Node.
+ * Relievo as a library for Node and for browsers.
  *
  * ```js
  * import { readFileSync } from "node:fs";
@@ -21,3 +23,10 @@
  * `Shape[]`, … below.
  */
 export * from "../pkg/relievo.js";
+
+/**
+ * Loads the WebAssembly, in a page or a worker: nothing else may be used before it resolves. `from` is where it lies,
+ * or what it is; without it, it is looked for where the package has it. Rejects where WebAssembly has no SIMD. In Node
+ * all is loaded already.
+ */
+export default function init(from?: InitInput | Promise<InitInput>): Promise<void>;

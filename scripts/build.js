@@ -1,16 +1,31 @@
 // The page, ready to be served as plain files, in dist/.
 
-import { ifMain, run, stage } from "./shell.js";
+import { join } from "node:path";
+
+import { compress } from "./compress.js";
+import { ifMain, root, run, stage } from "./shell.js";
+import { recordings } from "./recordings.js";
 import { setup } from "./setup.js";
 import { unlessFresh } from "./stamp.js";
-import { wasm } from "./wasm.js";
 
-const SOURCES = ["www", "pkg", "vite.config.ts", "package-lock.json"];
+const SOURCES = [
+  "www",
+  "pkg",
+  "recordings",
+  "vite.config.ts",
+  "scripts/policy.js",
+  "package-lock.json",
+];
 
-/** Builds the WebAssembly and the page, as far as they have changed. */
+/** Builds the WebAssembly, the recordings made with it and the page, as far as they have changed. */
 export async function build() {
-  await wasm();
-  await unlessFresh("dist", SOURCES, () => stage("Page", () => run("vite", ["build"])));
+  await recordings();
+  await unlessFresh("dist", SOURCES, () =>
+    stage("Page", async () => {
+      await run("vite", ["build"]);
+      compress(join(root, "dist"));
+    }),
+  );
 }
 
 await ifMain(import.meta.url, async () => {

@@ -48,6 +48,7 @@ export function ask(program, ...options) {
     env: environment,
     encoding: "utf8",
     stdio: ["ignore", "pipe", "ignore"],
+    maxBuffer: 1 << 26,
   });
   return status === 0 ? stdout.trim() : null;
 }

@@ -3,9 +3,10 @@
 import { parseArgs } from "node:util";
 
 import { ifMain, root, Trouble } from "./shell.js";
+import { serve } from "./serve.js";
 import { setup } from "./setup.js";
 import { build } from "./build.js";
-import { wasm } from "./wasm.js";
+import { recordings } from "./recordings.js";
 
 const USAGE = "npm start [-- [--port PORT] [--host HOST]]";
 
@@ -26,18 +27,26 @@ function options() {
   }
 }
 
-await ifMain(import.meta.url, async () => {
-  const { dev, host, port } = options();
-  await setup();
-  if (dev) await wasm();
-  else await build();
-
+/**
+ * The page from its sources.
+ * @param {string} host
+ * @param {number} port
+ */
+async function serveSources(host, port) {
   // Only now is Vite sure to be installed.
   const vite = await import("vite");
   const common = { configFile: `${root}/vite.config.ts`, root: `${root}/www` };
-  const server = dev
-    ? await (await vite.createServer({ ...common, server: { host, port } })).listen()
-    : await vite.preview({ ...common, preview: { host, port } });
-  const address = server.resolvedUrls?.local[0] ?? `http://${host}:${port}/`;
+  const server = await vite.createServer({ ...common, server: { host, port } });
+  await server.listen();
+  return server.resolvedUrls?.local[0] ?? `http://${host}:${port}/`;
+}
+
+await ifMain(import.meta.url, async () => {
+  const { dev, host, port } = options();
+  await setup();
+  if (dev) await recordings();
+  else await build();
+
+  const address = dev ? await serveSources(host, port) : await serve(host, port);
   console.log(`\nRelievo is at ${address}\nPress Ctrl-C to stop.`);
 });

@@ -1,12 +1,14 @@
 // npm test: every check there is, each timed, and a summary. `npm test -- page cli` runs only the
 // stages whose names contain one of those words.
 
-import { existsSync, readdirSync } from "node:fs";
+import { existsSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { createServer } from "node:net";
 import { join } from "node:path";
 
 import { build } from "./build.js";
 import { ensureChromium } from "./chromium.js";
+import { findFirefox } from "./firefox.js";
+import { recordings } from "./recordings.js";
 import { setup } from "./setup.js";
 import { duration, ifMain, root, run, stage, Trouble } from "./shell.js";
 import { wasm } from "./wasm.js";
@@ -14,10 +16,17 @@ import { wasm } from "./wasm.js";
 const WASM = ["--target", "wasm32-unknown-unknown"];
 const DENY = ["--", "-D", "warnings"];
 
+/** Tests of the page that run in Firefox as well: it opens, runs, and draws. */
+const IN_FIREFOX = "opens on the blocks|asks nothing of other hosts|a run makes the energy fall";
+
 /** @type {[string, () => Promise<unknown>][]} */
 const STAGES = [
   ["rust format", () => run("cargo", ["fmt", "--check"])],
   ["rust lint", () => run("cargo", ["clippy", "--locked", "--all-targets", ...DENY])],
+  [
+    "rust lint without features",
+    () => run("cargo", ["clippy", "--locked", "--lib", "--no-default-features", ...DENY]),
+  ],
   [
     "rust lint for wasm",
     () => run("cargo", ["clippy", "--locked", "--lib", "--features", "bench", ...WASM, ...DENY]),
@@ -27,25 +36,42 @@ const STAGES = [
     () => run("cargo", ["doc", "--locked", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" }),
   ],
   ["rust tests", rustTests],
+  ["crate as packed", crate],
   ["rust tests in Node", rustInNode],
   ["build", build],
   ["page format", () => run("prettier", ["--check", "."])],
   ["page types", types],
   ["speed table tests", () => nodeTests("tests/speed")],
   ["command line tests", commandLine],
+  ["npm package tests", npmPackage],
   ["page tests", page],
+  ["page tests in Firefox", pageInFirefox],
 ];
 
-async function rustTests() {
-  // Without the examples, which the lint has looked through.
-  const output = await run("cargo", ["test", "--locked", "--no-fail-fast", "--lib", "--tests"]);
-  return output + (await run("cargo", ["test", "--locked", "--doc"]));
+/** Without the benches, which the lint has looked through, and what `crate` runs. */
+function rustTests() {
+  return run("cargo", ["test", "--locked", "--no-fail-fast", "--lib", "--tests"]);
+}
+
+/** What `cargo package` makes builds by itself, with its examples; those in its documentation run. */
+async function crate() {
+  await run("cargo", ["package", "--locked", "--allow-dirty", "--no-verify"]);
+  const targets = join(root, process.env.CARGO_TARGET_DIR ?? "target");
+  const { version } = JSON.parse(readFileSync(join(root, "package.json"), "utf8"));
+  const folder = join(targets, "package", `relievo-${version}`);
+  rmSync(folder, { recursive: true, force: true });
+  await run("tar", ["-xzf", `${folder}.crate`, "-C", join(targets, "package")]);
+  const test = ["test", "--locked", "--manifest-path", join(folder, "Cargo.toml")];
+  const here = ["--target-dir", targets];
+  await run("cargo", [...test, ...here, "--examples"]);
+  return run("cargo", [...test, ...here, "--doc"]);
 }
 
 /** What both targets must agree in; the rest is the same code, compiled by the same compiler. */
 function rustInNode() {
   const tests = ["core", "solver"].flatMap((name) => ["--test", name]);
-  return run("cargo", ["test", "--locked", "--no-fail-fast", ...tests, ...WASM], {
+  const features = ["--features", "javascript"];
+  return run("cargo", ["test", "--locked", "--no-fail-fast", ...features, ...tests, ...WASM], {
     CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: "wasm-bindgen-test-runner",
     WASM_BINDGEN_TEST_ONLY_NODE: "1",
     // Seconds before the runner gives up on a whole binary.
@@ -57,16 +83,26 @@ async function types() {
   await wasm();
   await run("tsc", ["-p", "tsconfig.json"]);
   await run("tsc", ["-p", "tsconfig.node.json"]);
+  await run("tsc", ["-p", "tsconfig.worker.json"]);
 }
 
 async function commandLine() {
-  await wasm();
+  await recordings();
   return nodeTests("tests/cli");
 }
 
-/** @param {string} folder */
-function nodeTests(folder) {
-  return run("node", ["--test", "--test-reporter=spec", ...filesIn(folder, ".test.js")]);
+async function npmPackage() {
+  await wasm();
+  const chromium = await ensureChromium();
+  return nodeTests("tests/package", chromium ? { RELIEVO_CHROMIUM: chromium } : {});
+}
+
+/**
+ * @param {string} folder
+ * @param {Record<string, string>} [extra]
+ */
+function nodeTests(folder, extra) {
+  return run("node", ["--test", "--test-reporter=spec", ...filesIn(folder, ".test.js")], extra);
 }
 
 async function page() {
@@ -75,6 +111,19 @@ async function page() {
   return run("playwright", ["test"], {
     RELIEVO_PORT: String(await freePort()),
     ...(chromium ? { RELIEVO_CHROMIUM: chromium } : {}),
+  });
+}
+
+/** What most depends on the browser; nothing where no Firefox is installed. */
+async function pageInFirefox() {
+  const firefox = findFirefox();
+  if (firefox === undefined) return console.log("No Firefox is installed: left out.");
+  await build();
+  return run("playwright", ["test", "--grep", IN_FIREFOX], {
+    NODE_OPTIONS: `--require ${JSON.stringify(join(root, "scripts/firefox.cjs"))}`,
+    RELIEVO_BROWSER: "firefox",
+    RELIEVO_FIREFOX: firefox,
+    RELIEVO_PORT: String(await freePort()),
   });
 }
 
@@ -98,12 +147,15 @@ function freePort() {
   });
 }
 
+/** @param {unknown} output */
+const plain = (output) => String(output ?? "").replaceAll(/\x1b\[[0-9;]*m/g, "");
+
 /**
  * How many tests a stage's output speaks of; none for a stage that is one check.
  * @param {unknown} output
  */
 function count(output) {
-  const text = String(output ?? "").replaceAll(/\x1b\[[0-9;]*m/g, "");
+  const text = plain(output);
   const patterns = [
     /test result: \w+\. (\d+) passed; (\d+) failed/g,
     /^ℹ pass (\d+)\s+ℹ fail (\d+)/gm,
@@ -116,6 +168,21 @@ function count(output) {
     failed += Number(match[2] ?? 0);
   }
   return { passed, failed };
+}
+
+/**
+ * The tests that a stage's output says have failed.
+ * @param {unknown} output
+ */
+export function failing(output) {
+  const text = plain(output);
+  const patterns = [
+    /^test (.+?) \.\.\. FAILED$/gm,
+    /^\s*✖ (.+?) \([\d.]+ms\)$/gm,
+    /^\s+\[\w+\] › (.+?) ?─*$/gm,
+  ];
+  const names = patterns.flatMap((pattern) => [...text.matchAll(pattern)].map(([, name]) => name));
+  return [...new Set(names)];
 }
 
 await ifMain(import.meta.url, async () => {
@@ -145,7 +212,8 @@ await ifMain(import.meta.url, async () => {
     const { passed, failed } = count(output);
     const tests = passed + failed ? `${passed} passed${failed ? `, ${failed} failed` : ""}` : "";
     const time = duration(performance.now() - from);
-    lines.push(`${word.padEnd(7)} ${name.padEnd(22)} ${time.padStart(11)}  ${tests || reason}`);
+    lines.push(`${word.padEnd(7)} ${name.padEnd(26)} ${time.padStart(11)}  ${tests || reason}`);
+    if (reason) lines.push(...failing(output).map((test) => `          ${test}`));
   }
   console.log(`\n== Summary, ${duration(performance.now() - begin)}`);
   console.log(lines.join("\n"));

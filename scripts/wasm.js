@@ -31,31 +31,28 @@ const FEATURES = [
 
 /** Compiles, binds and optimises, unless nothing changed since the last time. */
 export function wasm() {
-  return made("pkg", process.env.CARGO_TARGET_DIR ?? "target", []);
+  return made("pkg", process.env.CARGO_TARGET_DIR ?? "target", "javascript");
 }
 
 /** The same with kernels to be timed, elsewhere: see `src/wasm/bench.rs`. */
 export async function benchWasm() {
   const folder = "out/kernels";
   // A target folder of its own, or each of the two would be compiled anew after the other.
-  await made(folder, join(process.env.CARGO_TARGET_DIR ?? "target", "bench"), [
-    "--features",
-    "bench",
-  ]);
+  await made(folder, join(process.env.CARGO_TARGET_DIR ?? "target", "bench"), "bench");
   return folder;
 }
 
 /**
  * @param {string} folder
  * @param {string} targets cargo's
- * @param {string[]} options for cargo
+ * @param {string} feature
  */
-function made(folder, targets, options) {
+function made(folder, targets, feature) {
   return unlessFresh(folder, SOURCES, () =>
     stage("WebAssembly: compile, bind, optimise", async () => {
       const target = "wasm32-unknown-unknown";
-      const lib = ["build", "--locked", "--release", "--lib", "--target", target];
-      await run("cargo", [...lib, "--target-dir", targets, ...options]);
+      const lib = ["build", "--locked", "--release", "--lib", "--features", feature];
+      await run("cargo", [...lib, "--target", target, "--target-dir", targets]);
       const built = join(targets, target, "release/relievo.wasm");
       rmSync(join(root, folder), { recursive: true, force: true });
       await run("wasm-bindgen", ["--target", "web", "--out-dir", folder, built]);

@@ -23,6 +23,17 @@ pub const FOCAL_RANGE: [f64; 2] = [1.0, 1e6];
 pub const FARTHEST_CENTRE: f64 = 1e6;
 
 /// A pinhole camera with square pixels.
+///
+/// ```
+/// use relievo::{Camera, RigidMotion};
+///
+/// let camera = Camera::centred(300.0, 320, 240)?;
+/// let sideways = RigidMotion { translation: [0.02, 0.0, 0.0].into(), ..Default::default() };
+/// // f t1 / Z = 300 · 0.02 / 2 pixels to the right at depth 2.
+/// let (u, v) = camera.image_motion(&sideways, 159.5, 119.5, 1.0 / 2.0);
+/// assert!((u - 3.0).abs() < 1e-12 && v == 0.0);
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Camera {
     /// Focal length in pixels, within [`FOCAL_RANGE`].
@@ -34,6 +45,20 @@ pub struct Camera {
 }
 
 /// A rigid motion from one frame to the next: P' = R(ω) P + T, to first order dP/dt = T + ω × P.
+///
+/// ```
+/// use std::f64::consts::FRAC_PI_2;
+///
+/// use relievo::RigidMotion;
+/// use relievo::glam::DVec3;
+///
+/// // A quarter turn about the line of sight, then one unit away from the camera.
+/// let motion = RigidMotion {
+///     translation: DVec3::Z,
+///     rotation: FRAC_PI_2 * DVec3::Z,
+/// };
+/// assert!((motion.apply(DVec3::X) - DVec3::new(0.0, 1.0, 1.0)).length() < 1e-12);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RigidMotion {
     /// T, in units of depth per frame.

@@ -9,8 +9,18 @@
 use serde::Serialize;
 
 /// The three terms of (7).
+///
+/// ```
+/// use relievo::energy::Energy;
+///
+/// let energy = Energy { data: 900.0, smoothness: 80.0, length: 20.0 };
+/// assert_eq!(energy.total(), 1000.0);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Energy {
     /// Σ ∫ ψ².
     pub data: f64,

@@ -5,13 +5,28 @@ use crate::camera::{FARTHEST_CENTRE, FOCAL_RANGE};
 use crate::frames::{MAX_PIXELS, MAX_SIDE, MIN_SIDE};
 use crate::options::MAX_CURVES;
 
+const FORMATS: &str = if cfg!(feature = "decoders") {
+    "PNG, JPEG, PNM, WebP, BMP, GIF and TIFF are"
+} else {
+    "PNG alone is"
+};
+
 /// What can be wrong with what a user gave.
+///
+/// ```
+/// use relievo::{Camera, Error};
+///
+/// let error = Camera::centred(0.0, 320, 240).unwrap_err();
+/// assert_eq!(error, Error::Focal(0.0));
+/// assert_eq!(
+///     error.to_string(),
+///     "the focal length is 0 pixels; it must be a number from 1 to 1000000, such as the frame's width"
+/// );
+/// ```
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
     /// The bytes are no image, or one that is cut short.
-    #[error(
-        "{name} cannot be read as an image ({reason}); PNG, JPEG, PNM, WebP, BMP, GIF and TIFF are understood"
-    )]
+    #[error("{name} cannot be read as an image ({reason}); {FORMATS} understood")]
     Decode {
         /// The file, as the user knows it.
         name: String,
@@ -50,6 +65,14 @@ pub enum Error {
     TooLarge {
         /// The picture, as the user knows it.
         name: String,
+    },
+    /// Depth asked for where regions move as planes still.
+    #[error(
+        "there is no depth yet: regions move as planes until their outlines stand still; take motion and curves, or whole passes, {most} at most"
+    )]
+    Planes {
+        /// Passes before depth is looked for, at most.
+        most: usize,
     },
     /// A flat array that does not fill the picture it is said to be.
     #[error("{what} of {width}×{height} pixels needs {expected} values, but {found} were given")]

@@ -8,6 +8,15 @@ use std::ops::{Index, IndexMut};
 use crate::error::Error;
 
 /// A `width × height` array in row order.
+///
+/// ```
+/// use relievo::Grid;
+///
+/// let ramp = Grid::from_fn(4, 3, |x, y| (x + 10 * y) as f32);
+/// assert_eq!(ramp[(3, 2)], 23.0);
+/// assert_eq!(ramp.row(1), [10.0, 11.0, 12.0, 13.0]);
+/// assert_eq!(ramp.bilinear(0.5, 1.0), 10.5);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Grid<T> {
     width: usize,
@@ -79,11 +88,6 @@ impl<T: Copy> Grid<T> {
     /// Whether there is no pixel at all.
     pub fn is_empty(&self) -> bool {
         self.data.is_empty()
-    }
-
-    /// All values in row order.
-    pub fn into_vec(self) -> Vec<T> {
-        self.data
     }
 
     /// All values in row order.

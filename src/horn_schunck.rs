@@ -31,6 +31,18 @@ pub const SWEEPS: usize = 300;
 /// What Horn–Schunck makes of `pair`, worked on at the size of [`Detail::Normal`]: image motion, and nothing known of
 /// anything else.
 ///
+/// ```
+/// use relievo::{Frame, FramePair, Grid, horn_schunck};
+///
+/// let waves = |by: f32| Grid::from_fn(48, 36, |x, y| 128.0 + 50.0 * (0.4 * (x as f32 - by) + 0.3 * y as f32).sin());
+/// let [first, second] = [0.0, 0.5].map(|by| Frame::from_grey(waves(by)).unwrap());
+/// let found = horn_schunck::interpreted(&FramePair::new(first, second)?)?;
+/// // Along the waves nothing shows: it finds the motion across them.
+/// let (u, v) = (found.flow.u[(24, 18)], found.flow.v[(24, 18)]);
+/// assert!((0.4 * u + 0.3 * v - 0.2).abs() < 0.05);
+/// # Ok::<(), relievo::Error>(())
+/// ```
+///
 /// # Errors
 /// Those of [`Camera::centred`].
 pub fn interpreted(pair: &FramePair) -> Result<Interpretation, Error> {

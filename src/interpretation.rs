@@ -5,11 +5,25 @@
 
 use crate::camera::{Camera, RigidMotion};
 use crate::grid::Grid;
+use crate::motion_model::MotionModel;
 
 /// Least and greatest depth that is told, in units in which a region's mean 1/Z is 1.
 pub const NEAREST_FARTHEST: [f32; 2] = [0.02, 50.0];
 
 /// Image motion in pixels per frame.
+///
+/// ```
+/// use relievo::file::flo;
+/// use relievo::{Flow, Grid};
+///
+/// let flow = Flow {
+///     u: Grid::new(8, 6, 1.5),
+///     v: Grid::new(8, 6, -0.25),
+/// };
+/// let bytes = flo::write(&flow);
+/// assert_eq!(flo::read(&bytes, "flow.flo")?, flow);
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flow {
     /// Rightwards. Not a number where unknown.
@@ -19,6 +33,18 @@ pub struct Flow {
 }
 
 /// Labels, depth, motion and flow of the first of two frames; all grids have the frame's size.
+///
+/// ```
+/// use relievo::scene;
+///
+/// let truth = scene::render("squares", 64, 48)?.truth;
+/// assert_eq!(truth.regions(), 3);
+/// // The first square twice as far away, and twice as fast: the same image motion.
+/// let scaled = truth.scaled(&[1.0, 2.0]);
+/// assert_eq!(scaled.motions[1].translation, 2.0 * truth.motions[1].translation);
+/// assert_eq!(scaled.flow, truth.flow);
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interpretation {
     /// The camera that it is meant for.
@@ -41,6 +67,29 @@ impl Interpretation {
     /// Number of regions, the background included.
     pub fn regions(&self) -> usize {
         self.motions.len()
+    }
+
+    /// The model of each region's motion as far as it shows, T being taken in units in which the region's mean 1/Z is 1.
+    pub fn models(&self) -> Vec<MotionModel> {
+        let mut sums = vec![(0.0, 0usize); self.regions()];
+        for (&k, &z) in self.labels.data().iter().zip(self.depth.data()) {
+            if let Some((sum, count)) = sums.get_mut(usize::from(k))
+                && z.is_finite()
+                && z > 0.0
+            {
+                *sum += f64::from(z).recip();
+                *count += 1;
+            }
+        }
+        let each = self.motions.iter().zip(sums);
+        each.map(|(motion, (sum, count))| {
+            let scaled = RigidMotion {
+                translation: motion.translation * (sum / count.max(1) as f64),
+                ..*motion
+            };
+            MotionModel::seen(&self.camera, &scaled)
+        })
+        .collect()
     }
 
     /// The same with region k's depth multiplied by `factors[k]` (1 where `factors` is too short) and

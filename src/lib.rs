@@ -45,6 +45,18 @@
 //! # Ok::<(), relievo::Error>(())
 //! ```
 //!
+//! # Features
+//!
+//! - `decoders` (on): frames from JPEG, PNM, WebP, BMP, GIF and TIFF files, films and EXIF data; without it from PNG files only.
+//! - `scenes` (on): [`scene`], the built-in sequences with their truth.
+//! - `javascript`: what JavaScript sees of it, for `wasm32-unknown-unknown` only.
+//!
+//! # Versions
+//!
+//! Semantic versioning: before 1.0 a minor version may change the interface, a patch does not. What counts is what is
+//! documented here; figures that come out may change with any version that finds better ones. It needs Rust 1.95; a later
+//! one is asked for by a minor version only.
+//!
 //! # Conventions
 //!
 //! Pixel (0, 0) is the centre of the top-left pixel, x to the right, y down, Z forward. f is in pixels,
@@ -69,9 +81,11 @@ mod linalg;
 mod motion_model;
 pub mod options;
 pub mod paper;
+#[cfg(feature = "scenes")]
 pub mod scene;
 pub mod score;
 pub mod solver;
+mod spread;
 mod srgb;
 pub mod view;
 pub mod window;
@@ -81,6 +95,8 @@ pub use camera::{Camera, RigidMotion};
 pub use curves::{Contour, Shape};
 pub use error::Error;
 pub use frames::{Frame, FramePair};
+/// The vectors of [`RigidMotion`] are its.
+pub use glam;
 pub use grid::Grid;
 pub use interpretation::{Flow, Interpretation};
 pub use motion_model::MotionModel;
@@ -88,5 +104,5 @@ pub use options::Options;
 pub use solver::{Solver, Status};
 pub use window::Window;
 
-#[cfg(target_arch = "wasm32")]
+#[cfg(all(target_arch = "wasm32", feature = "javascript"))]
 pub mod wasm;

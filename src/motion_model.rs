@@ -1,12 +1,26 @@
 //! Motion models: which of still, rotation, translation and full a motion is, as far as it shows.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::camera::{Camera, RigidMotion};
 
 /// The motion model of a region.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+///
+/// ```
+/// use relievo::{Camera, MotionModel, RigidMotion};
+///
+/// let camera = Camera::centred(320.0, 320, 240)?;
+/// let mut motion = RigidMotion::default();
+/// assert_eq!(MotionModel::seen(&camera, &motion), MotionModel::Still);
+/// motion.translation.x = 0.01;
+/// assert_eq!(MotionModel::seen(&camera, &motion), MotionModel::Translation);
+/// # Ok::<(), relievo::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 #[serde(rename_all = "lowercase")]
 pub enum MotionModel {
     /// T = 0 and ω = 0.

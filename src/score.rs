@@ -17,8 +17,24 @@ use crate::interpretation::{Flow, Interpretation};
 
 /// Distances between an interpretation and the truth. Lists have an entry for each region of the
 /// truth, the background first; an entry is null where there is nothing to compare.
+///
+/// ```
+/// use relievo::{horn_schunck, FramePair, scene, score};
+///
+/// let sequence = scene::render("squares", 64, 48)?;
+/// let [first, second] = sequence.frames.clone();
+/// let baseline = horn_schunck::interpreted(&FramePair::new(first, second)?)?;
+/// let scores = score::compare(&baseline, &sequence.truth)?;
+/// // It knows of no regions, so both squares are labelled wrong.
+/// assert!(scores.labels_wrong > 0.05);
+/// assert!(scores.aee.unwrap() < 1.0); // pixels
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Scores {
     /// Mean end-point error of the flow in pixels; null when no true flow is known.
     pub aee: Option<f64>,
@@ -41,7 +57,10 @@ pub struct Scores {
 
 /// [`Scores`] of what there is of two results; null where one of the two lacks what is compared.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct PartScores {
     /// Mean end-point error of the flow in pixels.
     pub aee: Option<f64>,

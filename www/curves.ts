@@ -5,12 +5,11 @@
  */
 
 import { announce } from "./dom";
+import { present, recorded } from "./memory/history";
 import { ask, configure, look } from "./session";
 import { store, type State } from "./store";
 import { findingOf } from "./wording";
 import type { Point, Shape } from "./worker/protocol";
-
-const MAX_UNDO = 200;
 
 /** Shows the curves as they would be, without making a step of it. */
 export function preview(shapes: Shape[]): void {
@@ -69,38 +68,9 @@ export function select(index: number | null): void {
   if (shape) announce(`Curve ${index! + 1} selected: ${describe(shape)}.`);
 }
 
-export function undo(): void {
-  const { past, future, shapes } = store.state;
-  const before = past.at(-1);
-  if (!before) return;
-  restore(before, { past: past.slice(0, -1), future: [shapes, ...future] });
-  announce("Undone.");
-}
-
-export function redo(): void {
-  const { past, future, shapes } = store.state;
-  const after = future[0];
-  if (!after) return;
-  restore(after, { past: [...past, shapes], future: future.slice(1) });
-  announce("Done again.");
-}
-
-function restore(shapes: Shape[], history: { past: Shape[][]; future: Shape[][] }): void {
-  const { selected } = store.state;
-  store.update({
-    ...history,
-    ...scalesFor(shapes),
-    shapes,
-    finding: null,
-    selected: selected !== null && selected < shapes.length ? selected : null,
-  });
-  void configure();
-  void look();
-}
-
 function record(before: Shape[], after: Shape[], selected: number | null): void {
-  const past = [...store.state.past, before].slice(-MAX_UNDO);
-  store.update({ ...scalesFor(after), shapes: after, selected, past, future: [], finding: null });
+  const history = recorded({ ...present(), shapes: before });
+  store.update({ ...history, ...scalesFor(after), shapes: after, selected, finding: null });
   void configure();
   void look();
 }

@@ -1,7 +1,8 @@
 /** A pair that has been opened takes the place of the one before, and of what was found in that. */
 
 import { store, type State } from "./store";
-import type { Opened, Setup, Source } from "./worker/protocol";
+import type { Setting } from "./memory/setting";
+import type { Found, Opened, Setup, Source } from "./worker/protocol";
 
 /**
  * Whether two pairs are of the same frames, perhaps the other way round: what was drawn on the one holds for
@@ -14,7 +15,12 @@ export function sameFrames(one: Source, other: Source | null): boolean {
 }
 
 /** With `keep`, curves and camera stay as they are, and so does what can be undone. */
-export function adopt(source: Source, opened: Opened, keep: boolean): void {
+export function adopt(
+  source: Source,
+  opened: Opened,
+  { keep, setting, found }: { keep: boolean; setting: Partial<Setting>; found: Found | null },
+): void {
+  const { playing, pictures, pictured } = store.state;
   store.state.frames?.forEach((frame) => frame.close());
   store.update({
     source,
@@ -27,25 +33,40 @@ export function adopt(source: Source, opened: Opened, keep: boolean): void {
     truth: opened.truth,
     ...(keep ? {} : drawn(opened.setup)),
     running: false,
-    started: false,
-    report: null,
-    contours: [],
-    pictures: [],
-    pictured: "",
+    started: found !== null,
+    report: found?.report ?? null,
+    contours: found?.contours ?? [],
+    // A recording has its last picture already.
+    ...(playing && found ? { pictures, pictured } : { pictures: [], pictured: "" }),
     scores: null,
+    held: null,
+    heldFound: null,
     scales: [],
     showing: "first",
     tool: "select",
+    playing: false,
+    ...seen(setting),
   });
   // A view that needs the truth makes no sense without.
   if (!opened.truth && store.state.view === "compare") store.update({ view: "curves" });
 }
 
+/** How it is looked at. The solver's part of a setting is what the pair was opened with. */
+function seen({ view, viewParams, scales, pace }: Partial<Setting>): Partial<State> {
+  return {
+    ...(view && { view }),
+    ...(viewParams && { viewParams }),
+    ...(scales && { scales }),
+    ...(pace !== undefined && { pace }),
+  };
+}
+
 /** What a pair brings with it, as if somebody had just drawn it. */
-function drawn({ shapes, camera }: Setup): Partial<State> {
+function drawn({ shapes, camera, options }: Setup): Partial<State> {
   return {
     shapes,
     camera,
+    options,
     focalFinding: null,
     selected: null,
     past: [],

@@ -7,16 +7,27 @@
 
 import { during } from "./busy";
 import { announce } from "./dom";
+import { presentFound } from "./memory/held";
+import type { Setting } from "./memory/setting";
 import { adopt, sameFrames } from "./opened";
 import { paceOf } from "./pace";
+import { sceneOf } from "./scenes";
 import { store, type State } from "./store";
+import { Viewer } from "./viewer";
 import { wantedBy } from "./views";
 import { ending, sentence } from "./wording";
 import { Client, Ended, type Remote } from "./worker/client";
-import type { Failure, MeshData, Part, Progress, Setup, Source, Wanted } from "./worker/protocol";
+import type {
+  Failure,
+  Found,
+  MeshData,
+  Part,
+  Progress,
+  Setup,
+  Source,
+  Wanted,
+} from "./worker/protocol";
 
-/** Size at which built-in sequences are ray-cast. */
-const SCENE_SIZE = { width: 320, height: 240 };
 /** How long the worker may take to answer before cancelling ends it. */
 const PATIENCE_MS = 1500;
 
@@ -36,30 +47,47 @@ const client = new Client({
   },
 });
 
-/** Loads the core and opens the first sequence. */
-export async function start(): Promise<void> {
+/** Draws while the solver is in a pass: it knows what the pass before came to. */
+const viewer = new Viewer((progress) => {
+  const { pictures, view, mesh } = progress;
+  for (const old of store.state.pictures) old?.close();
+  store.update({ pictures, pictured: view });
+  if (mesh) meshListener(mesh);
+});
+
+/** Loads the core; `memory/first.ts` says what is opened first. */
+export async function load(): Promise<boolean> {
   await attempt("Loading", async () => {
     store.update({ catalogues: await client.call((service) => service.catalogues()) });
   });
-  if (store.state.catalogues) await openScene("blocks");
+  return store.state.catalogues !== null;
 }
 
-export function openScene(name: string): Promise<boolean> {
-  return open({ kind: "scene", name, ...SCENE_SIZE }, "Rendering the sequence");
+export function openScene(name: string, setting?: Partial<Setting>): Promise<boolean> {
+  return open(sceneOf(name), "Rendering the sequence", setting);
 }
 
-/** Opens a pair; what was open stays when this one is no good. */
-export function open(source: Source, phrase: string): Promise<boolean> {
+/**
+ * Opens a pair, set as `setting` says and else as a new one is, with the result that was found with it; what was open
+ * stays when this one is no good.
+ */
+export function open(
+  source: Source,
+  phrase: string,
+  setting: Partial<Setting> = {},
+  found: Found | null = null,
+): Promise<boolean> {
   store.update({ opening: source });
   return attempt(phrase, async () => {
     try {
       await client.inTurn(async (service) => {
         // Another may have been chosen while this one waited.
         if (store.state.opening !== source) return;
-        const keep = sameFrames(source, store.state.source);
-        const opened = await service.open(source, keep ? setupOf(store.state) : null);
+        const { opened, keep, refused } = await openWith(service, source, setting, found);
         forgetAsked();
-        adopt(source, opened, keep);
+        const shown = opened.restored ? found : null;
+        adopt(source, opened, { keep, setting: refused ? {} : setting, found: shown });
+        if (refused) store.update({ message: sentence(refused) });
         await look();
         announce(`${opened.title} is open, ${opened.width} by ${opened.height} pixels.`);
       });
@@ -67,6 +95,33 @@ export function open(source: Source, phrase: string): Promise<boolean> {
       if (store.state.opening === source) store.update({ opening: null });
     }
   });
+}
+
+/**
+ * Opens a pair with as much of `setting` as is given, the present options where it gives none: a preset that was
+ * chosen because the other refuses the frames is the one to open them with. What is refused of all that is left out.
+ */
+async function openWith(
+  service: Remote,
+  source: Source,
+  setting: Partial<Setting>,
+  found: Found | null,
+) {
+  const { state } = store;
+  const keep = Object.keys(setting).length === 0 && sameFrames(source, state.source);
+  const { shapes, camera, options = state.options } = setting;
+  const given = { ...(shapes && { shapes }), ...(camera && { camera }), options };
+  const setup: Partial<Setup> = keep ? setupOf(state) : given;
+  try {
+    return { opened: await service.open(source, setup, found), keep, refused: null };
+  } catch (error) {
+    const { name, message } = error as Error;
+    const { preset } = options;
+    const plain: Partial<Setup> = { options: preset ? { preset } : {} };
+    const same = JSON.stringify(plain) === JSON.stringify(setup);
+    if (keep || same || name !== "Error" || error instanceof Ended) throw error;
+    return { opened: await service.open(source, plain, null), keep, refused: message };
+  }
 }
 
 /** Whether a sequence was asked for since the state was `then`, and was not refused. */
@@ -125,9 +180,22 @@ export function step(part: Part): Promise<boolean> {
   return command({ started: true }, (service, setup, wanted) => service.step(setup, part, wanted));
 }
 
-export async function reset(): Promise<void> {
+/** Shows what was put away, with what is set. */
+export function restore(found: Found): Promise<boolean> {
+  const { report, contours } = found;
+  const patch = { started: true, selected: null, report, contours };
+  return command(patch, (service, setup, wanted) => service.restore(setup, found, wanted));
+}
+
+/** The present result, put away; `null` when there is none, or it could not be. */
+export function keep(): Promise<Found | null> {
+  return ask(null, (service) => service.keep());
+}
+
+export async function reset(): Promise<boolean> {
   const done = await command({}, (service, setup, wanted) => service.reset(setup, wanted));
   if (done) announce("Back at the drawn curves.");
+  return done;
 }
 
 /** Stops at once: asks first, and ends the worker when it does not answer. */
@@ -145,7 +213,7 @@ export async function cancel(): Promise<void> {
   if (!answered) {
     await recover(true);
     // What hung may have been the core's own loading.
-    if (!store.state.catalogues) void start();
+    if (!store.state.catalogues) void load();
   }
   announce("Cancelled; frames and curves are kept.");
 }
@@ -157,7 +225,8 @@ let lookAgain = false;
 
 /** Tells the worker what the page is looking at: the latest only, once the last was answered. */
 export async function look(): Promise<void> {
-  if (!store.state.source) return;
+  if (!store.state.frames) return;
+  viewer.look(wantedBy(store.state));
   if (asked !== answered) {
     lookAgain = true;
     return;
@@ -255,8 +324,12 @@ let recovering: Promise<boolean> | null = null;
 /** A new worker with the same frames, curves and settings. One that breaks down as well is left until someone cancels. */
 async function recover(byHand = false): Promise<void> {
   if (recovering && !byHand) return;
+  // A hang that was cancelled may be of what was found.
+  const found = byHand ? null : presentFound(store.state);
   client.restart();
-  const reopened = attempt("Starting afresh", () => client.inTurn(reopen));
+  const reopened = attempt("Starting afresh", () =>
+    client.inTurn((service) => reopen(service, found)),
+  );
   recovering = reopened;
   // Commands that were under way end first, and say what they know of the run.
   await new Promise((next) => setTimeout(next));
@@ -270,14 +343,14 @@ async function recover(byHand = false): Promise<void> {
   if (open) await look();
 }
 
-async function reopen(service: Remote): Promise<void> {
+async function reopen(service: Remote, found: Found | null): Promise<void> {
   const { source } = store.state;
   if (!source) return;
   try {
-    await service.open(source, setupOf(store.state));
+    await service.open(source, setupOf(store.state), found);
   } catch {
     // Frames are there for whoever mends the setting; what is wrong with it is said when it is used.
-    await service.open(source, null);
+    await service.open(source, {}, null);
   }
 }
 
@@ -295,6 +368,7 @@ async function show(progress: Progress): Promise<void> {
   store.update({
     running: progress.running,
     started: progress.started,
+    revision: progress.revision,
     report: progress.report,
     contours: progress.contours,
     pictures,
@@ -302,6 +376,11 @@ async function show(progress: Progress): Promise<void> {
     scores: progress.scores,
   });
   if (progress.mesh) meshListener(progress.mesh);
+  if (!progress.running) viewer.end();
+  else if (progress.found && state.source) {
+    const { found: bytes, report, contours } = progress;
+    viewer.follow(state.source, setupOf(state), { bytes, report, contours });
+  }
   if (finished) announce(ending(progress.report));
   if (lookAgain) {
     lookAgain = false;

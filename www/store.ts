@@ -4,10 +4,12 @@
  * Anything may read it and watch a part of it; commands in `session.ts` and `curves.ts` change it.
  */
 
+import type { Session } from "./memory/database";
 import type {
   Camera,
   Catalogues,
   Contour,
+  Found,
   OptionValues,
   Report,
   ScoreTable,
@@ -25,6 +27,26 @@ export interface Slot {
   width: number;
   height: number;
   picture: ImageBitmap;
+}
+
+/** A result that has been put away, or is being. */
+export interface Held {
+  /** The solver's when it was. */
+  revision: number;
+  /** What it was found with (`memory/held.ts`). */
+  settings: string;
+  ready: Promise<Found | null>;
+  /** What `ready` comes to. */
+  found: Found | null;
+}
+
+/** What undo goes back to. */
+export interface Moment {
+  shapes: Shape[];
+  camera: Camera;
+  options: OptionValues;
+  scales: number[];
+  held: Held | null;
 }
 
 export interface ViewParams {
@@ -60,8 +82,8 @@ export interface State {
   /** Initial curves; `shapes[k]` starts region k + 1. */
   shapes: Shape[];
   selected: number | null;
-  past: Shape[][];
-  future: Shape[][];
+  past: Moment[];
+  future: Moment[];
   /** What the last look for curves came to, until they change. */
   finding: string | null;
   camera: Camera;
@@ -74,15 +96,24 @@ export interface State {
 
   /** What the page is waiting for, as a phrase (`busy.ts`); `null` when it waits for nothing. */
   busy: string | null;
+  /** Whether what is shown is a recording (`recording/`), and not yet the solver's. */
+  playing: boolean;
+  /** What this device keeps (`memory/database.ts`), used last first; `null` where it keeps nothing. */
+  memory: Session[] | null;
   running: boolean;
   /** Whether the solver has been at work; until then the drawn curves are the contours. */
   started: boolean;
+  /** Another number wherever what is found may be another. */
+  revision: number;
   report: Report | null;
   contours: Contour[];
   /** Pictures, and the name of what they show (`views.ts`): it may lag behind what was chosen. */
   pictures: (ImageBitmap | null)[];
   pictured: string;
   scores: ScoreTable | null;
+  /** The result as it was last put away, and what that came to. */
+  held: Held | null;
+  heldFound: Found | null;
   /** Depth factor of each region: two frames do not tell it. */
   scales: number[];
 
@@ -147,13 +178,18 @@ export const store = new Store({
   options: {},
   pace: null,
   busy: "Loading",
+  playing: false,
+  memory: [],
   running: false,
   started: false,
+  revision: 0,
   report: null,
   contours: [],
   pictures: [],
   pictured: "",
   scores: null,
+  held: null,
+  heldFound: null,
   scales: [],
   tool: "select",
   view: "curves",

@@ -208,15 +208,15 @@ const NAMES: Record<Whose, string> = {
 };
 
 /** A name for what is shown: the view, and the kinds of its pictures where they can be chosen. */
-function nameOf({ view, viewParams }: Readonly<State>): string {
+export function nameOf({ view, viewParams }: Readonly<State>): string {
   return [view, ...viewOf(view).kinds(viewParams)].join(" ");
 }
 
 /** Whether what is shown is still to come: a worker that runs answers after the pass it is in. */
 export function awaited(state: Readonly<State>): boolean {
-  const { frames, view, pictured } = state;
+  const { source, view, pictured } = state;
   // Curves lie on the frame itself, which is there.
-  return frames !== null && view !== "curves" && pictured !== nameOf(state);
+  return source !== null && view !== "curves" && pictured !== nameOf(state);
 }
 
 /** A name above each picture, where there are several. */

@@ -27,6 +27,15 @@ export function ending(report: Report): string {
   }
 }
 
+/** How long a run will take, coarse enough to hold; empty where it is not known. */
+export function remaining(seconds: number | null): string {
+  if (seconds === null) return "";
+  if (seconds < 1.5) return "About a second left.";
+  if (seconds < 90)
+    return `About ${seconds < 10 ? Math.round(seconds) : 5 * Math.round(seconds / 5)}\u00a0s left.`;
+  return `About ${Math.round(seconds / 60)}\u00a0min left.`;
+}
+
 /** How good the result is expected to be, at the scale at work. */
 export function expectation({ flow, labels }: Expected): string {
   const right = `Flow is expected to be right to about ${number(flow, 1)}\u00a0px`;

@@ -24,7 +24,7 @@ NAME          only these: blocks, carousel-1003, …
 --mild        variants with a background of little relief before a camera that shifts and turns; nothing built in
 --tsv FILE    write name, preset, AEE and labels wrong as well
 --data DIR    solve the recorded sequences in DIR as well
---levers      what each option of `best` is worth: it is switched off alone
+--levers      what each option of `best` is worth and costs: it is switched off alone, and left on alone
 --starts      how much the result depends on where the circles are drawn
 --auto        which curves are found where nobody draws any, and where `best` ends from them
 --find        the same, without solving

@@ -3,7 +3,7 @@
 //! A case is a recipe. It is rendered only where it is worked on, so that a run holds few pictures
 //! at a time.
 
-use relievo::scene::{self, Sequence};
+use relievo::scene::{self, Draw, Sequence};
 
 use crate::Failure;
 
@@ -38,14 +38,8 @@ pub enum Case {
     Variant {
         /// How it is filmed.
         filming: Filming,
-        /// "blocks" or "carousel".
-        base: &'static str,
-        /// Decides shapes, textures, lamp and motions.
-        seed: u64,
-        /// Grey levels.
-        noise: f32,
-        /// Pixels.
-        displacement: f64,
+        /// What decides it.
+        draw: Draw<'static>,
     },
 }
 
@@ -60,10 +54,13 @@ impl Case {
     pub fn variants(seed: u64, filming: Filming) -> Vec<Self> {
         let variant = |k: u64| Self::Variant {
             filming,
-            base: ["blocks", "carousel"][(k % 2) as usize],
-            seed: seed.wrapping_add(k),
-            noise: NOISES[(k / 2 % 5) as usize],
-            displacement: DISPLACEMENTS[((k / 2 * 3 + k / 10) % 5) as usize],
+            draw: Draw {
+                base: ["blocks", "carousel"][(k % 2) as usize],
+                seed: seed.wrapping_add(k),
+                noise_sigma: NOISES[(k / 2 % 5) as usize],
+                displacement: DISPLACEMENTS[((k / 2 * 3 + k / 10) % 5) as usize],
+                size: SIZE,
+            },
         };
         (0..VARIANTS).map(variant).collect()
     }
@@ -72,16 +69,14 @@ impl Case {
     pub fn name(&self) -> String {
         match self {
             Self::BuiltIn(name) => (*name).to_owned(),
-            Self::Variant {
-                filming,
-                base,
-                seed,
-                ..
-            } => match filming {
-                Filming::Moving => format!("{base}-{seed}"),
-                Filming::Passing => format!("passing-{base}-{seed}"),
-                Filming::Mild => format!("mild-{base}-{seed}"),
-            },
+            Self::Variant { filming, draw } => {
+                let name = format!("{}-{}", draw.base, draw.seed);
+                match filming {
+                    Filming::Moving => name,
+                    Filming::Passing => format!("passing-{name}"),
+                    Filming::Mild => format!("mild-{name}"),
+                }
+            }
         }
     }
 
@@ -95,20 +90,11 @@ impl Case {
         let [width, height] = SIZE;
         let sequence = match *self {
             Self::BuiltIn(name) => scene::render(name, width, height),
-            Self::Variant {
-                filming,
-                base,
-                seed,
-                noise,
-                displacement,
-            } => {
-                let draw = match filming {
-                    Filming::Moving => scene::variant,
-                    Filming::Passing => scene::passing,
-                    Filming::Mild => scene::mild,
-                };
-                draw(base, seed, noise, displacement, width, height)
-            }
+            Self::Variant { filming, ref draw } => match filming {
+                Filming::Moving => scene::variant(draw),
+                Filming::Passing => scene::passing(draw),
+                Filming::Mild => scene::mild(draw),
+            },
         };
         Ok(sequence?)
     }

@@ -24,7 +24,7 @@ pub fn write(sequence: &Sequence, folder: &Path) -> Result<(), Box<dyn Error + S
         "curves": sequence.curves,
     });
     let motion = MotionFile {
-        regions: RegionMotion::list(&truth.motions),
+        regions: RegionMotion::list(&truth.motions, &truth.models()),
         status: "truth".to_owned(),
         ..MotionFile::default()
     };

@@ -124,18 +124,9 @@ pub fn solve(
 
 /// Region k's share of the frame, and what its true motion is as far as it shows.
 pub fn seen(truth: &Interpretation, k: usize) -> (f64, MotionModel) {
-    let all = truth.labels.data().iter().zip(truth.depth.data());
-    let inside = all.filter(|(label, _)| usize::from(**label) == k);
-    let depths: Vec<f64> = inside.map(|(_, &z)| f64::from(z)).collect();
-    let known = || depths.iter().filter(|z| z.is_finite() && **z > 0.0);
-    let rho = known().map(|z| 1.0 / z).sum::<f64>() / known().count().max(1) as f64;
-    // In units in which the region's mean 1/Z is 1, as the solver has them.
-    let scaled = RigidMotion {
-        translation: truth.motions[k].translation * rho,
-        ..truth.motions[k]
-    };
-    let share = depths.len() as f64 / truth.labels.len() as f64;
-    (share, MotionModel::seen(&truth.camera, &scaled))
+    let inside = truth.labels.data().iter().filter(|l| usize::from(**l) == k);
+    let share = inside.count() as f64 / truth.labels.len() as f64;
+    (share, truth.models()[k])
 }
 
 fn rise(history: &[f64]) -> f64 {

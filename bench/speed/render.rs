@@ -8,7 +8,7 @@ use std::path::Path;
 
 use relievo::Error;
 use relievo::file::flo;
-use relievo::scene::{Film, render_film, variant_film};
+use relievo::scene::{Draw, Film, render_film, variant_film};
 use serde_json::{Value, json};
 
 use crate::Failure;
@@ -48,7 +48,14 @@ fn film(scene: &str, width: usize, height: usize) -> Result<Film, Error> {
     let variant = scene.split_once('-');
     match variant.and_then(|(base, seed)| Some((base, seed.parse().ok()?))) {
         Some((base, seed)) => {
-            variant_film(base, seed, NOISE, DISPLACEMENT, [width, height], FRAMES)
+            let draw = Draw {
+                base,
+                seed,
+                noise_sigma: NOISE,
+                displacement: DISPLACEMENT,
+                size: [width, height],
+            };
+            variant_film(&draw, FRAMES)
         }
         None => render_film(scene, width, height, FRAMES),
     }

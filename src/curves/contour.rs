@@ -11,6 +11,19 @@ use std::collections::HashMap;
 use crate::grid::Grid;
 
 /// A sub-pixel polyline around (a part of) a region.
+///
+/// ```
+/// use relievo::Shape;
+/// use relievo::curves::contours;
+///
+/// let circle = Shape::Circle { x: 20.0, y: 15.0, r: 5.0 };
+/// let outline = &contours(&circle.level_set(40, 30, 0)?, 1)[0];
+/// assert!(outline.closed);
+/// for [x, y] in &outline.points {
+///     assert!(((x - 20.0).hypot(y - 15.0) - 5.0).abs() < 0.1);
+/// }
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contour {
     /// The region it bounds: k for the k-th curve.

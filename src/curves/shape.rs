@@ -9,8 +9,24 @@ use crate::error::Error;
 use crate::grid::Grid;
 
 /// A closed curve as drawn.
+///
+/// ```
+/// use relievo::Shape;
+///
+/// let circle = Shape::Circle { x: 20.0, y: 15.0, r: 5.0 };
+/// assert_eq!(circle.signed_distance(20.0, 12.0), 2.0); // inside
+/// assert_eq!(circle.signed_distance(30.0, 15.0), -5.0); // outside
+///
+/// let triangle: Shape = serde_json::from_str(
+///     r#"{"kind": "polygon", "points": [[1, 1], [9, 1], [5, 8]]}"#,
+/// ).unwrap();
+/// assert!(triangle.signed_distance(5.0, 3.0) > 0.0);
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Shape {
     /// A circle.

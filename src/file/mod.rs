@@ -1,6 +1,7 @@
 //! Results as files that other programs read: flow, depth, labels, motion, pictures.
 
 pub mod flo;
+pub mod kept;
 pub mod kitti;
 pub mod motion;
 pub mod parts;

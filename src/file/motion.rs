@@ -6,8 +6,25 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::camera::RigidMotion;
 use crate::error::Error;
+use crate::motion_model::MotionModel;
 
 /// The contents of motion.json.
+///
+/// ```
+/// use relievo::file::motion::{MotionFile, RegionMotion};
+/// use relievo::{MotionModel, RigidMotion};
+///
+/// let models = [MotionModel::Still, MotionModel::Translation];
+/// let moves = RigidMotion { translation: [0.1, 0.0, 0.0].into(), ..Default::default() };
+/// let file = MotionFile {
+///     regions: RegionMotion::list(&[RigidMotion::default(), moves], &models),
+///     status: "converged".to_owned(),
+///     ..Default::default()
+/// };
+/// let read = MotionFile::read(&file.write())?;
+/// assert_eq!(read.regions[1].motion(), moves);
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MotionFile {
     /// Every region, the background first.
@@ -32,6 +49,9 @@ pub struct RegionMotion {
     pub translation: [f64; 3],
     /// ω = (w1, w2, w3).
     pub rotation: [f64; 3],
+    /// The motion model; files of others may not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model: Option<MotionModel>,
 }
 
 /// Seconds spent, in all and in each of the three steps.
@@ -48,14 +68,16 @@ pub struct Seconds {
 }
 
 impl RegionMotion {
-    /// The motions of regions 0, 1, … as entries.
-    pub fn list(motions: &[RigidMotion]) -> Vec<Self> {
-        let entry = |(k, m): (usize, &RigidMotion)| Self {
-            label: k as u8,
-            translation: m.translation.to_array(),
-            rotation: m.rotation.to_array(),
+    /// The motions of regions 0, 1, … and their models as entries.
+    pub fn list(motions: &[RigidMotion], models: &[MotionModel]) -> Vec<Self> {
+        let regions = (0..).zip(motions.iter().zip(models));
+        let entry = |(label, (motion, model)): (u8, (&RigidMotion, &MotionModel))| Self {
+            label,
+            translation: motion.translation.to_array(),
+            rotation: motion.rotation.to_array(),
+            model: Some(*model),
         };
-        motions.iter().enumerate().map(entry).collect()
+        regions.map(entry).collect()
     }
 
     /// The motion itself.

@@ -49,6 +49,9 @@ pub fn write_labels(labels: &Grid<u8>) -> Result<Vec<u8>, Error> {
 pub fn read_labels(bytes: &[u8], name: &str) -> Result<Grid<u8>, Error> {
     let wrong = |reason: String| unreadable(name, FORMAT, reason);
     let open = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+    if palette_breaks_off(bytes) {
+        return Err(wrong("its palette is cut short".to_owned()));
+    }
     let size = open().into_dimensions().map_err(|e| wrong(e.to_string()))?;
     let (width, height) = bounded(name, FORMAT, size.0.into(), size.1.into())?;
     match open().decode().map_err(|e| wrong(e.to_string()))? {
@@ -58,6 +61,22 @@ pub fn read_labels(bytes: &[u8], name: &str) -> Result<Grid<u8>, Error> {
             kind(other.color())
         ))),
     }
+}
+
+/// Whether the bytes are a PNG whose palette ends within a colour. The decoder would panic.
+pub(crate) fn palette_breaks_off(bytes: &[u8]) -> bool {
+    let Some(mut rest) = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n") else {
+        return false;
+    };
+    // Chunks: the length of the data, four letters, the data, a checksum.
+    while let Some((length, after)) = rest.split_first_chunk::<4>() {
+        let length = u32::from_be_bytes(*length) as usize;
+        if after.starts_with(b"PLTE") && !length.is_multiple_of(3) {
+            return true;
+        }
+        rest = after.get(length.saturating_add(8)..).unwrap_or_default();
+    }
+    false
 }
 
 fn encode<T: Copy>(

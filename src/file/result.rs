@@ -11,6 +11,28 @@ use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 
 /// The contents of the files of a result.
+///
+/// ```
+/// use relievo::file::motion::{MotionFile, RegionMotion};
+/// use relievo::file::result::{self, ResultFiles};
+/// use relievo::scene;
+///
+/// let truth = scene::render("squares", 64, 48)?.truth;
+/// let regions = RegionMotion::list(&truth.motions, &truth.models());
+/// let motion = MotionFile { regions, ..Default::default() };
+/// let files = result::write(&truth, &motion)?;
+/// let bytes = |name| &files.iter().find(|(n, _)| *n == name).unwrap().1[..];
+/// let read = ResultFiles {
+///     labels: bytes("labels.png"),
+///     depth: bytes("depth.pfm"),
+///     flow: bytes("flow.flo"),
+///     motion: std::str::from_utf8(bytes("motion.json")).unwrap(),
+///     occlusion: Some(bytes("occlusion.png")),
+/// }.read()?;
+/// assert_eq!(read.labels, truth.labels);
+/// assert_eq!(read.depth, truth.depth);
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct ResultFiles<'a> {
     /// labels.png.

@@ -8,17 +8,20 @@ use std::io::Cursor;
 
 use super::frame::{Frame, check_size};
 use super::jpeg;
+#[cfg(feature = "decoders")]
 use super::lens::Lens;
 use super::samples::Raw;
+#[cfg(feature = "decoders")]
 use super::tiff::{self, Pages};
 use crate::error::Error;
+use crate::file::png;
 
 /// Bytes that a decoder may take for one picture: 16-bit RGB with alpha of the largest frame.
 pub(super) const MOST_BYTES: u64 = 800_000_000;
 
 impl Frame {
     /// Reads a PNG, JPEG, PNM, WebP, BMP, GIF or TIFF file of up to 16 bits: grey, colour, palettes, with or without
-    /// alpha; the first picture of a file that holds several. It is turned upright as its EXIF data says. Transparent
+    /// alpha, of which PNG alone without the feature `decoders`; the first picture of a file that holds several. It is turned upright as its EXIF data says. Transparent
     /// parts are shown on mid grey. `name` is what error messages call it.
     ///
     /// # Errors
@@ -26,15 +29,13 @@ impl Frame {
     /// [`Error::TooLarge`] far outside.
     pub fn decode(bytes: &[u8], name: &str) -> Result<Self, Error> {
         check_length(bytes, name)?;
-        let mut frame = if tiff::is_tiff(bytes) {
-            first_page(bytes, name)?
-        } else {
-            picture(bytes, name)?
-        };
-        if frame.lens.is_none() && tiff::is_tiff(bytes) {
+        #[cfg(feature = "decoders")]
+        if tiff::is_tiff(bytes) {
+            let mut frame = first_page(bytes, name)?;
             frame.lens = Lens::of_tiff(bytes, frame.width(), frame.height());
+            return Ok(frame);
         }
-        Ok(frame)
+        picture(bytes, name)
     }
 }
 
@@ -61,20 +62,28 @@ fn picture(bytes: &[u8], name: &str) -> Result<Frame, Error> {
         reader.set_format(format);
         Ok(reader)
     };
+    if png::palette_breaks_off(bytes) {
+        return Err(unreadable(name, "its palette is cut short"));
+    }
     let (width, height) = open()?.into_dimensions().map_err(refuse)?;
     check_size(name, width as usize, height as usize)?;
     if jpeg::breaks_off(bytes) {
         return Err(unreadable(name, "the file is cut short"));
     }
     let mut decoder = open()?.into_decoder().map_err(refuse)?;
+    #[cfg(feature = "decoders")]
     let exif = decoder.exif_metadata().ok().flatten();
     let upright = decoder.orientation().map_err(refuse)?;
     let picture = DynamicImage::from_decoder(decoder).map_err(refuse)?;
-    let mut frame = Raw::new(picture, upright).frame();
-    frame.lens = exif.and_then(|exif| Lens::of_exif(exif, frame.width(), frame.height()));
+    let frame = Raw::new(picture, upright).frame();
+    #[cfg(feature = "decoders")]
+    let lens = exif.and_then(|exif| Lens::of_exif(exif, frame.width(), frame.height()));
+    #[cfg(feature = "decoders")]
+    let frame = Frame { lens, ..frame };
     Ok(frame)
 }
 
+#[cfg(feature = "decoders")]
 fn first_page(bytes: &[u8], name: &str) -> Result<Frame, Error> {
     let refuse = |e: tiff::Refused| e.error(name);
     let mut pages = Pages::open(bytes).map_err(refuse)?;

@@ -32,33 +32,31 @@ impl Derivatives {
             *m = 0.5 * (a + b);
             *t = b - a;
         }
-        let (ix, iy) = gradient(&mean);
+        let [ix, iy] = gradient(&mean);
         Self { ix, iy, it }
     }
 }
 
 /// ∂/∂x and ∂/∂y of a picture by the five-point stencil, the border repeated outwards.
-pub fn gradient(picture: &Grid<f32>) -> (Grid<f32>, Grid<f32>) {
+pub fn gradient(picture: &Grid<f32>) -> [Grid<f32>; 2] {
     let (width, height) = (picture.width(), picture.height());
     let stencil = |a: f32, b: f32, c: f32, d: f32| (a - d + 8.0 * (c - b)) / 12.0;
-    let ix = Grid::from_fn(width, height, |x, y| {
+    let mut ix = Grid::new(width, height, 0.0f32);
+    let mut iy = ix.clone();
+    let mut padded = vec![0.0f32; width + 4];
+    for y in 0..height {
         let row = picture.row(y);
-        let at = |i: usize| row[i.min(width - 1)];
-        stencil(
-            at(x.saturating_sub(2)),
-            at(x.saturating_sub(1)),
-            at(x + 1),
-            at(x + 2),
-        )
-    });
-    let iy = Grid::from_fn(width, height, |x, y| {
-        let at = |j: usize| picture[(x, j.min(height - 1))];
-        stencil(
-            at(y.saturating_sub(2)),
-            at(y.saturating_sub(1)),
-            at(y + 1),
-            at(y + 2),
-        )
-    });
-    (ix, iy)
+        padded[..2].fill(row[0]);
+        padded[2..width + 2].copy_from_slice(row);
+        padded[width + 2..].fill(row[width - 1]);
+        for (out, v) in ix.row_mut(y).iter_mut().zip(padded.windows(5)) {
+            *out = stencil(v[0], v[1], v[3], v[4]);
+        }
+        let at = |down: usize| picture.row((y + down).saturating_sub(2).min(height - 1));
+        let (a, b, c, d) = (at(0), at(1), at(3), at(4));
+        for (x, out) in iy.row_mut(y).iter_mut().enumerate() {
+            *out = stencil(a[x], b[x], c[x], d[x]);
+        }
+    }
+    [ix, iy]
 }

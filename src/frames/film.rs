@@ -17,6 +17,7 @@ use super::jpeg;
 use super::samples::Raw;
 use super::tiff::{self, Pages};
 use crate::error::Error;
+use crate::file::png;
 
 /// Pixels of all frames together at most: 350 MB.
 const MOST_PIXELS: usize = 50_000_000;
@@ -82,6 +83,9 @@ impl Film {
                 Self::still(bytes, name)
             }
             Some(ImageFormat::Png) => {
+                if png::palette_breaks_off(bytes) {
+                    return Err(unreadable(name, "its palette is cut short"));
+                }
                 let mut decoder = PngDecoder::new(cursor()).map_err(refuse)?;
                 animation(&mut decoder, name)?;
                 if decoder.is_apng().map_err(refuse)? {

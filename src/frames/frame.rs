@@ -26,6 +26,20 @@ pub const MAX_PIXELS: usize = 100_000_000;
 pub const MOST_WORKED: usize = 16_000_000;
 
 /// A picture, for the solver and for the eye.
+///
+/// ```
+/// use relievo::file::png;
+/// use relievo::{Frame, Grid};
+///
+/// let orange = png::write_rgb(&Grid::new(32, 24, [255, 128, 0]))?;
+/// let frame = Frame::decode(&orange, "orange.png")?;
+/// assert_eq!((frame.width(), frame.height()), (32, 24));
+/// assert!((frame.grey[(5, 5)] - 145.8).abs() < 0.1); // 0.2126 R + 0.7152 G + 0.0722 B
+///
+/// let error = Frame::decode(b"no picture", "notes.txt").unwrap_err();
+/// assert!(error.to_string().starts_with("notes.txt cannot be read as an image"));
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
     /// Brightness in grey levels, 0–255, not rounded: of the frame's size, or where that has more than
@@ -89,6 +103,7 @@ impl Frame {
     }
 
     /// A frame of sRGB colours 0–255 that need not be whole numbers; sizes must agree.
+    #[cfg(feature = "scenes")]
     pub(crate) fn from_colours(width: usize, height: usize, colours: &[[f32; 3]]) -> Self {
         Self::from_rows(width, height, |y, out, _| {
             out.copy_from_slice(&colours[y * width..(y + 1) * width]);
@@ -191,6 +206,18 @@ impl Frame {
 }
 
 /// Two moments of one film, of the same size and with something to see in them.
+///
+/// ```
+/// use relievo::{Error, Frame, FramePair, Grid};
+///
+/// let waves = |by: f32| Grid::from_fn(32, 24, |x, y| 128.0 + 50.0 * (0.4 * (x as f32 - by) + 0.3 * y as f32).sin());
+/// let [first, second] = [0.0, 0.5].map(|by| Frame::from_grey(waves(by)).unwrap());
+/// let pair = FramePair::new(first.clone(), second)?;
+/// assert_eq!(pair.width(), 32);
+///
+/// assert_eq!(FramePair::new(first.clone(), first), Err(Error::FramesIdentical));
+/// # Ok::<(), Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct FramePair {
     first: Frame,

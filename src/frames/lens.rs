@@ -8,19 +8,26 @@
 //! side is the longer side of the frame, side₀ that of the photo when it was taken: a photo that was made smaller since has
 //! a smaller f. A photo that was cropped since has not, and its data do not say so.
 
+#[cfg(feature = "decoders")]
 use exif::{Exif, In, Reader, Tag, Value};
 use serde::Serialize;
 
+#[cfg(feature = "decoders")]
 /// Width of a frame of 35 mm film, mm.
 const FILM: f64 = 36.0;
+#[cfg(feature = "decoders")]
 /// Focal lengths that lenses have, in shares of the longer side.
 const PLAUSIBLE: std::ops::RangeInclusive<f64> = 0.1..=100.0;
+#[cfg(feature = "decoders")]
 /// TIFF files of more bytes are not searched.
 const MOST_TIFF: usize = 64_000_000;
 
 /// What a photo says of its lens.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Lens {
     /// f in pixels of the frame.
     pub focal: f64,
@@ -32,7 +39,10 @@ pub struct Lens {
 
 /// Which of a photo's data tell f.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 #[serde(rename_all = "lowercase")]
 pub enum LensSource {
     /// The equivalent on 35 mm film.
@@ -52,6 +62,7 @@ impl std::fmt::Display for Lens {
 }
 
 impl Lens {
+    #[cfg(feature = "decoders")]
     /// Of an EXIF block and the size of the frame.
     pub(super) fn of_exif(block: Vec<u8>, width: usize, height: usize) -> Option<Self> {
         let data = Reader::new().read_raw(block).ok()?;
@@ -60,6 +71,7 @@ impl Lens {
         found.filter(|lens| PLAUSIBLE.contains(&(lens.focal / side)))
     }
 
+    #[cfg(feature = "decoders")]
     /// Of a TIFF file, which is an EXIF block itself.
     pub(super) fn of_tiff(bytes: &[u8], width: usize, height: usize) -> Option<Self> {
         let small = bytes.len() <= MOST_TIFF;
@@ -75,6 +87,7 @@ impl Lens {
     }
 }
 
+#[cfg(feature = "decoders")]
 fn of_film(data: &Exif, side: f64) -> Option<Lens> {
     let millimetres = number(data, Tag::FocalLengthIn35mmFilm)?;
     Some(Lens {
@@ -84,6 +97,7 @@ fn of_film(data: &Exif, side: f64) -> Option<Lens> {
     })
 }
 
+#[cfg(feature = "decoders")]
 fn of_sensor(data: &Exif, side: f64) -> Option<Lens> {
     let millimetres = number(data, Tag::FocalLength)?;
     let resolution = number(data, Tag::FocalPlaneXResolution)?;
@@ -106,6 +120,7 @@ fn of_sensor(data: &Exif, side: f64) -> Option<Lens> {
     })
 }
 
+#[cfg(feature = "decoders")]
 /// A number above 0.
 fn number(data: &Exif, tag: Tag) -> Option<f64> {
     let value = match &data.get_field(tag, In::PRIMARY)?.value {

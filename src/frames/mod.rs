@@ -3,6 +3,7 @@
 mod decode;
 mod derivatives;
 mod fields;
+#[cfg(feature = "decoders")]
 mod film;
 mod frame;
 mod gaussian;
@@ -15,16 +16,20 @@ mod pyramid;
 mod samples;
 mod shrink;
 mod spline;
+#[cfg(feature = "decoders")]
 mod tiff;
 
 pub use derivatives::{Derivatives, gradient};
+#[cfg(feature = "decoders")]
 pub use film::{Film, Kind, Moment};
+#[cfg(feature = "scenes")]
+pub(crate) use frame::check_size;
+pub(crate) use frame::least_factor;
 pub use frame::{Frame, FramePair, MAX_PIXELS, MAX_SIDE, MIN_SIDE, MOST_WORKED};
-pub(crate) use frame::{check_size, least_factor};
 pub use gaussian::blur;
 pub use lens::{Lens, LensSource};
 pub use lighting::Lighting;
 pub use note::Note;
-pub use pyramid::{doubled, halved, halved_camera};
+pub use pyramid::{halved, halved_camera};
 pub(crate) use shrink::shrunk_camera;
-pub use spline::Spline;
+pub(crate) use spline::Spline;

@@ -4,7 +4,10 @@ use serde::Serialize;
 
 /// A remark on two frames.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Note {
     /// All that is seen lies within so few steps of brightness that detail is lost.

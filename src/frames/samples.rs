@@ -159,6 +159,7 @@ impl Sample for f32 {
     }
 }
 
+#[cfg(feature = "decoders")]
 impl Samples {
     /// Samples that came channel after channel, pixel after pixel.
     pub fn interleaved(self, channels: usize) -> Self {

@@ -1,4 +1,4 @@
-//! Brightness between pixels: the cubic spline through a picture.
+//! Brightness between pixels: the cubic spline through a picture (Unser 1999).
 //!
 //! ```text
 //! I(x, y) = Σij c_ij β(x − i) β(y − j)        β the cubic B-spline,  c such that I(i, j) is the pixel
@@ -6,109 +6,173 @@
 //!
 //! Cubics that read their slopes off neighbouring pixels are several percent off in texture as fine as a few
 //! pixels, more so halfway between two, and image motion read by them is drawn towards whole pixels; the spline
-//! is a tenth as far off (Unser 1999). c = pixels / β by a recursive filter, once a picture, which mirrors it
-//! at its border. Outside it has the border's values.
+//! is a tenth as far off. c = pixels / β by a recursive filter, once a picture, which mirrors it at its border.
+
+use wide::f32x4;
 
 use crate::grid::Grid;
 
+/// Pixels by which the spline goes on beyond the picture.
+const PAD: usize = 3;
 /// The pole of the recursive filter, √3 − 2.
 const POLE: f32 = -0.267_949_2;
-/// Pixels after which the pole's powers are below rounding.
-const HORIZON: usize = 16;
 
 /// The cubic spline through a picture.
 #[derive(Clone, Debug)]
-pub struct Spline {
+pub(crate) struct Spline {
+    /// 36 c, `PAD` pixels larger than the picture on each side.
     coefficients: Grid<f32>,
 }
 
 impl Spline {
-    /// The spline that has the pixels' values at whole coordinates.
+    /// The spline that has the pixels' values at whole coordinates. The picture has at least four rows and columns.
     pub fn through(picture: &Grid<f32>) -> Self {
-        let mut coefficients = picture.clone();
-        for y in 0..picture.height() {
-            filter(coefficients.row_mut(y));
-        }
-        let mut column = vec![0.0; picture.height()];
-        for x in 0..picture.width() {
-            for (y, c) in column.iter_mut().enumerate() {
-                *c = coefficients[(x, y)];
+        let (width, height) = (picture.width(), picture.height());
+        let mut c = picture.clone();
+        filter_rows(&mut c);
+        filter_columns(&mut c);
+        let mirrored = |i: usize, n: usize| {
+            let i = i.abs_diff(PAD);
+            if i < n { i } else { 2 * n - 2 - i }
+        };
+        let mut padded = Grid::new(width + 2 * PAD, height + 2 * PAD, 0.0f32);
+        for y in 0..height + 2 * PAD {
+            let from = c.row(mirrored(y, height));
+            for (x, to) in padded.row_mut(y).iter_mut().enumerate() {
+                *to = 36.0 * from[mirrored(x, width)];
             }
-            filter(&mut column);
-            for (y, c) in column.iter().enumerate() {
-                coefficients[(x, y)] = *c;
-            }
         }
-        Self { coefficients }
+        Self {
+            coefficients: padded,
+        }
     }
 
-    /// Its value at real coordinates, 0 at the middle of the first pixel.
+    /// Its value at a pixel.
+    pub fn pixel(&self, x: usize, y: usize) -> f32 {
+        let (c, x, y) = (&self.coefficients, x + PAD, y + PAD);
+        let across = |y| 4.0 * c[(x, y)] + c[(x - 1, y)] + c[(x + 1, y)];
+        (4.0 * across(y) + across(y - 1) + across(y + 1)) * (1.0 / 36.0)
+    }
+
+    /// Its value at (x, y), which is at most a pixel outside of the picture.
+    #[inline(always)]
     pub fn at(&self, x: f32, y: f32) -> f32 {
-        let (width, height) = (self.coefficients.width(), self.coefficients.height());
-        let x = x.clamp(0.0, (width - 1) as f32);
-        let y = y.clamp(0.0, (height - 1) as f32);
-        let (x0, y0) = (x.floor(), y.floor());
-        let (wx, wy) = (weights(x - x0), weights(y - y0));
-        let (x0, y0) = (x0 as usize, y0 as usize);
-        let within = x0 >= 1 && y0 >= 1 && x0 + 2 < width && y0 + 2 < height;
-        let mut sum = 0.0;
-        for (j, wy) in wy.into_iter().enumerate() {
-            let across = if within {
-                let four = &self.coefficients.row(y0 + j - 1)[x0 - 1..x0 + 3];
-                wx[0] * four[0] + wx[1] * four[1] + wx[2] * four[2] + wx[3] * four[3]
-            } else {
-                let row = self.coefficients.row(mirrored(y0 + j, height));
-                let each = wx.iter().enumerate();
-                each.map(|(i, w)| w * row[mirrored(x0 + i, width)]).sum()
-            };
-            sum += wy * across;
+        let (xi, tx, yi, ty) = cell(x, y);
+        let mut sum = f32x4::ZERO;
+        for (j, b) in basis(ty).into_iter().enumerate() {
+            sum += self.taps(xi, yi + j) * f32x4::splat(b);
         }
-        sum
+        (sum * f32x4::new(basis(tx))).reduce_add()
+    }
+
+    /// Its value there and its derivatives by x and by y.
+    #[inline(always)]
+    pub fn with_gradient(&self, x: f32, y: f32) -> [f32; 3] {
+        let (xi, tx, yi, ty) = cell(x, y);
+        let (by, dy) = (basis(ty), slope(ty));
+        // The four columns around x, the rows summed by β and by β′.
+        let (mut sum, mut down) = (f32x4::ZERO, f32x4::ZERO);
+        for j in 0..4 {
+            let row = self.taps(xi, yi + j);
+            sum += row * f32x4::splat(by[j]);
+            down += row * f32x4::splat(dy[j]);
+        }
+        let (bx, dx) = (f32x4::new(basis(tx)), f32x4::new(slope(tx)));
+        [sum * bx, sum * dx, down * bx].map(f32x4::reduce_add)
+    }
+
+    #[inline(always)]
+    fn taps(&self, x: usize, y: usize) -> f32x4 {
+        let at = y * self.coefficients.width() + x;
+        let row = &self.coefficients.data()[at..at + 4];
+        f32x4::new(row.try_into().unwrap_or_default())
     }
 }
 
-/// The pixel that stands one before `next`, mirrored at the first and the last of `count`.
-fn mirrored(next: usize, count: usize) -> usize {
-    let place = if next == 0 { 1 } else { next - 1 };
-    let place = if place < count {
-        place
-    } else {
-        (2 * (count - 1)).saturating_sub(place)
-    };
-    place.min(count - 1)
+/// First column and row of the four that matter at (x, y) in the padded spline, and the fractions past the second.
+#[inline(always)]
+fn cell(x: f32, y: f32) -> (usize, f32, usize, f32) {
+    let (x, y) = (x + PAD as f32, y + PAD as f32);
+    let (xi, yi) = (x as usize, y as usize);
+    (xi - 1, x - xi as f32, yi - 1, y - yi as f32)
 }
 
-/// β at the four pixels around a point at fraction `t` past the second.
-fn weights(t: f32) -> [f32; 4] {
-    let (s, t2, t3) = (1.0 - t, t * t, t * t * t);
+/// β at the four pixels around a point at fraction t past the second.
+#[inline(always)]
+fn basis(t: f32) -> [f32; 4] {
+    let s = 1.0 - t;
     [
-        s * s * s / 6.0,
-        (4.0 - 6.0 * t2 + 3.0 * t3) / 6.0,
-        (1.0 + 3.0 * t + 3.0 * t2 - 3.0 * t3) / 6.0,
-        t3 / 6.0,
+        s * s * s * (1.0 / 6.0),
+        (4.0 + t * t * (3.0 * t - 6.0)) * (1.0 / 6.0),
+        (4.0 + s * s * (3.0 * s - 6.0)) * (1.0 / 6.0),
+        t * t * t * (1.0 / 6.0),
     ]
 }
 
-/// Pixels of a row into its coefficients, there and back.
-fn filter(row: &mut [f32]) {
-    let n = row.len();
-    if n < 2 {
-        return;
-    }
-    row.iter_mut().for_each(|c| *c *= 6.0);
-    let mut power = 1.0;
-    let mut first = 0.0;
-    for i in 0..HORIZON {
-        // The row mirrored at its first pixel, as it would have come in.
-        first += power * row[mirrored(i + 1, n)];
-        power *= POLE;
-    }
-    row[0] = first;
-    for i in 1..n {
-        row[i] += POLE * row[i - 1];
-    }
-    row[n - 1] = POLE / (POLE * POLE - 1.0) * (row[n - 1] + POLE * row[n - 2]);
-    for i in (0..n - 1).rev() {
-        row[i] = POLE * (row[i + 1] - row[i]);
+/// β′ there.
+#[inline(always)]
+fn slope(t: f32) -> [f32; 4] {
+    let s = 1.0 - t;
+    [
+        -0.5 * s * s,
+        t * (1.5 * t - 2.0),
+        s * (2.0 - 1.5 * s),
+        0.5 * t * t,
+    ]
+}
+
+/// Powers of the pole that are not lost in rounding.
+fn powers() -> impl Iterator<Item = f32> {
+    std::iter::successors(Some(POLE), |p| Some(p * POLE)).take_while(|p| p.abs() > f32::EPSILON)
+}
+
+/// What starts the way back at the last pixel of a row that is mirrored there.
+fn last(end: f32, before: f32) -> f32 {
+    POLE / (POLE * POLE - 1.0) * (end + POLE * before)
+}
+
+fn filter_rows(c: &mut Grid<f32>) {
+    let width = c.width();
+    for y in 0..c.height() {
+        let row = c.row_mut(y);
+        row[0] += powers().zip(&row[1..]).map(|(p, v)| p * v).sum::<f32>();
+        for x in 1..width {
+            row[x] += POLE * row[x - 1];
+        }
+        row[width - 1] = last(row[width - 1], row[width - 2]);
+        for x in (0..width - 1).rev() {
+            row[x] = POLE * (row[x + 1] - row[x]);
+        }
     }
 }
+
+/// The same down the columns, a row at a time.
+fn filter_columns(c: &mut Grid<f32>) {
+    let (width, height) = (c.width(), c.height());
+    let (first, rest) = c.data_mut().split_at_mut(width);
+    for (power, row) in powers().zip(rest.chunks(width)) {
+        for (f, v) in first.iter_mut().zip(row) {
+            *f += power * v;
+        }
+    }
+    let data = c.data_mut();
+    for y in 1..height {
+        let (above, here) = data.split_at_mut(y * width);
+        for (h, a) in here[..width].iter_mut().zip(&above[(y - 1) * width..]) {
+            *h += POLE * a;
+        }
+    }
+    let (above, end) = data.split_at_mut((height - 1) * width);
+    for (e, a) in end.iter_mut().zip(&above[(height - 2) * width..]) {
+        *e = last(*e, *a);
+    }
+    for y in (0..height - 1).rev() {
+        let (here, below) = data.split_at_mut((y + 1) * width);
+        for (h, b) in here[y * width..].iter_mut().zip(&below[..width]) {
+            *h = POLE * (b - *h);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -35,6 +35,18 @@ const STRONG: f64 = 25.0;
 /// Polygons roughly on the things that move by themselves, the largest first, at most
 /// [`MAX_CURVES`]; none when one rigid motion explains both frames. Corners are in pixels of the frame, inside it, to
 /// a tenth of a pixel. `camera` is the frames' own.
+///
+/// ```
+/// use relievo::{FramePair, Options, Solver, init, scene};
+///
+/// let squares = scene::render("squares", 160, 120)?;
+/// let [first, second] = squares.frames;
+/// let (pair, camera) = (FramePair::new(first, second)?, squares.truth.camera);
+/// let curves = init::find_curves(&pair, &camera);
+/// assert_eq!(curves.len(), 2);
+/// let solver = Solver::new(pair, camera, &curves, Options::default())?;
+/// # Ok::<(), relievo::Error>(())
+/// ```
 pub fn find_curves(pair: &FramePair, camera: &Camera) -> Vec<Shape> {
     let frame = [pair.width(), pair.height()];
     let small = small_samples(pair, camera);

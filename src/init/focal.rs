@@ -32,6 +32,19 @@ const DOUBTFUL: f64 = 4.0;
 const CLOSER: usize = 2;
 
 /// A focal length that was found.
+///
+/// ```
+/// use relievo::{FramePair, init, scene};
+///
+/// let flight = scene::render("flight", 120, 90)?;
+/// let [first, second] = flight.frames;
+/// let guess = flight.truth.camera;
+/// match init::focal_length(&FramePair::new(first, second)?, &guess) {
+///     Some(found) => println!("f is {:.0} pixels, {:.0} to {:.0}", found.focal, found.least, found.greatest),
+///     None => println!("the frames do not tell f: {} is as good as any", guess.focal),
+/// }
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FocalLength {
     /// f in pixels.

@@ -13,8 +13,6 @@ use crate::solver::Expected;
 
 /// What flow is off by on the mean, in pixels of the scale at work.
 const FLOW_ERROR: f64 = 0.05;
-/// Share of the pixels beside an outline that have the wrong label, at the scale at work.
-const LABEL_ERROR: f64 = 0.5;
 /// Confidence of a region that two motions explain equally well, at most.
 const AMBIGUOUS: f32 = 0.5;
 
@@ -40,8 +38,8 @@ impl Layered {
         let mut occluded = Grid::new(width, height, 0u8);
         let [nearest, farthest] = NEAREST_FARTHEST;
         let f = camera.focal as f32;
-        let targets: Vec<_> = (self.regions.iter())
-            .map(|r| r.state.pose().target(finest))
+        let views: Vec<_> = (self.regions.iter())
+            .map(|r| r.state.view(&camera))
             .collect();
         for y in 0..height {
             for x in 0..width {
@@ -58,7 +56,7 @@ impl Layered {
                     Some(dense) => dense[at],
                     None => region.state.surface.at(x as f32, y as f32),
                 };
-                let (to_x, to_y) = targets[k].of(x, y, rho);
+                let [to_x, to_y] = views[k].target(x, y, rho);
                 (flow.u[at], flow.v[at]) = (to_x - x as f32, to_y - y as f32);
                 depth[at] = rho.max(farthest.recip()).recip().max(nearest);
                 let hidden = k == 0 && occlusion.as_ref().is_some_and(|o| o.at(to_x, to_y) != 0);
@@ -133,7 +131,8 @@ impl Layered {
             .count();
         Some(Expected {
             flow: FLOW_ERROR * f64::from(1u32 << self.level),
-            labels: 2.0 * LABEL_ERROR * beside as f64 / labels.len() as f64,
+            // Of the two pixels beside an outline one has the wrong label.
+            labels: beside as f64 / labels.len() as f64,
         })
     }
 }

@@ -1,16 +1,22 @@
 //! Stage 3: depth pixel by pixel, for regions whose depth has steps.
 //!
 //! A surface over control points cannot step. Where a region leaves many of its pixels unexplained ([`UNEXPLAINED`]),
-//! matches give its motion anew, a plane sweep its depth, and both are refined (`refine/`). The result is taken if its mean
-//! cost over the region is less than [`GAIN`] of the surface's.
+//! matches give its motion anew, a plane sweep its depth, and both are refined (`refine/`). They are taken if they cost less
+//! than [`GAIN`] of what the surface does, in the mean over the region. Often it was the motion that was wrong and not the
+//! surface: a surface through the depths found is estimated anew under the motion found, and stays unless depth pixel by
+//! pixel still costs less than [`GAIN`] of it, or the two are more than a pixel apart over much of the region ([`APART`]).
 
-use super::estimate::CUT;
-use super::label::saturation;
-use super::refine::{match_range, refine, sweep};
+use super::estimate::{State, Surface, saturation};
+use super::refine::{Refined, match_range, refine, sweep};
+use super::scale::Scale;
 use super::solver::Layered;
+use super::stages::STIFFNESS;
 use crate::camera::RigidMotion;
+use crate::frames::blur;
+use crate::grid::Grid;
 use crate::init::{epipolar_motion, matches};
 use crate::motion_model::MotionModel;
+use crate::options::Options;
 use crate::window::Window;
 
 /// Share of a region's pixels that a surface may leave unexplained, times the number of regions, and the share of the
@@ -18,8 +24,12 @@ use crate::window::Window;
 const UNEXPLAINED: [f64; 2] = [0.01, 0.5];
 /// A region with fewer pixels than this has too few matches.
 const FEWEST: usize = 2000;
-/// What the mean cost must fall to.
-const GAIN: f64 = 0.87;
+/// What the mean cost must fall to, against the surface as it was and as it is under the motion found.
+const GAIN: [f64; 2] = [0.87, 0.8];
+/// Share of pixels from which on a surface that is more than a pixel off has lost its way.
+const APART: f64 = 0.25;
+/// Gauss–Newton steps of the surface under the motion found.
+const STEPS: usize = 4;
 
 impl Layered {
     /// Whether some region wants depth pixel by pixel.
@@ -44,15 +54,17 @@ impl Layered {
     }
 
     /// Looks for depth anew where it is wanted.
-    pub(super) fn refine_discontinuities(&mut self) {
+    pub(super) fn refine_discontinuities(&mut self, options: &Options) {
         let wanted: Vec<usize> = (0..self.regions.len())
             .filter(|&k| self.is_unexplained(k))
             .collect();
-        // Not in each other's light: matches and the sweep compare frames less their local mean.
-        let frames = [self.pair.first(), self.pair.second()].map(|frame| &*frame.grey);
+        // Not in each other's light: what one frame alone shows is taken for a change of light, which turns depth.
+        let pair = self.pair.clone();
+        let frames = [pair.first(), pair.second()].map(|frame| &*frame.grey);
         let all = matches(frames[0], frames[1]);
         let camera = self.scales[0].camera;
-        let mut adopted = Vec::new();
+        let smooth = frames.map(|frame| blur(frame, self.smoothing));
+        let scale = Scale::new(smooth, frames.map(Grid::clone), camera);
         for k in wanted {
             let support = self.labels.map(|l| usize::from(l) == k);
             let own: Vec<_> = (all.iter().copied())
@@ -65,25 +77,64 @@ impl Layered {
                 continue;
             };
             let swept = sweep(frames, &camera, &found.motion, &support, range);
-            let refined = refine(frames, &camera, &swept.motion, &support, swept.rho);
-            let surface = &self.regions[k].state.surface;
-            let before = self.mean_cost(k, &self.regions[k].state.motion(), |x, y| {
-                surface.at(x as f32, y as f32)
-            });
+            let refined = refine(&scale, &swept.motion, &support, swept.rho);
+            let before = self.surface_cost(k);
             let after = self.mean_cost(k, &refined.motion, |x, y| refined.rho[(x, y)]);
-            if after < GAIN * before {
-                adopted.push((k, refined));
+            if after < GAIN[0] * before {
+                self.adopt(k, refined, after, options);
             }
         }
-        for (k, refined) in adopted {
+    }
+
+    /// Takes the motion of `refined`, whose cost is `cost`, with a surface or with depth pixel by pixel.
+    fn adopt(&mut self, k: usize, refined: Refined, cost: f64, options: &Options) {
+        let spacing = self.spacing();
+        let prior = self.prior(STIFFNESS[0], self.sigma, options);
+        let region = &mut self.regions[k];
+        region.model = MotionModel::Full;
+        region.ambiguous = false;
+        let pixels = State {
+            translation: refined.motion.translation,
+            rotation: refined.motion.matrix(),
+            surface: Surface::through(spacing, &refined.rho),
+        };
+        region.state = pixels.clone();
+        region.fresh = false;
+        self.improve_region(k, prior, STEPS, true);
+        if cost < GAIN[1] * self.surface_cost(k)
+            || self.share_apart(k, &pixels, &refined.rho) > APART
+        {
             let region = &mut self.regions[k];
-            region.state.translation = refined.motion.translation;
-            region.state.rotation = refined.motion.matrix();
-            region.model = MotionModel::Full;
-            region.ambiguous = false;
+            region.state = pixels;
             region.dense = Some(refined.rho);
             region.fresh = false;
         }
+    }
+
+    /// Share of the pixels of region k that its surface moves by more than a pixel from where `other` moves them with `rho`.
+    fn share_apart(&self, k: usize, other: &State, rho: &Grid<f32>) -> f64 {
+        let scale = &self.scales[0];
+        let own = &self.regions[k].state;
+        let views = [own, other].map(|state| state.view(&scale.camera));
+        let (mut all, mut apart) = (0usize, 0usize);
+        for y in 0..scale.height {
+            for x in 0..scale.width {
+                if usize::from(self.labels[(x, y)]) != k {
+                    continue;
+                }
+                let [a, b] = views[0].target(x, y, own.surface.at(x as f32, y as f32));
+                let [c, d] = views[1].target(x, y, rho[(x, y)]);
+                all += 1;
+                apart += usize::from((a - c).hypot(b - d) > 1.0);
+            }
+        }
+        apart as f64 / all.max(1) as f64
+    }
+
+    fn surface_cost(&self, k: usize) -> f64 {
+        let state = &self.regions[k].state;
+        let surface = &state.surface;
+        self.mean_cost(k, &state.motion(), |x, y| surface.at(x as f32, y as f32))
     }
 
     /// Mean of c(e) over the pixels of region k, grey levels²; what leaves the frame counts as unexplained.
@@ -92,7 +143,7 @@ impl Layered {
         let mut state = self.regions[k].state.clone();
         state.translation = motion.translation;
         state.rotation = motion.matrix();
-        let target = state.pose().target(scale);
+        let view = state.view(&scale.camera);
         let Some(Window {
             left,
             top,
@@ -102,16 +153,16 @@ impl Layered {
         else {
             return f64::INFINITY;
         };
-        let most = (CUT * self.sigma).powi(2);
+        let most = saturation(self.sigma);
         let (mut sum, mut count) = (0.0, 0usize);
         for y in top..top + height {
             for x in left..left + width {
                 if usize::from(self.labels[(x, y)]) != k {
                     continue;
                 }
-                let (to_x, to_y) = target.of(x, y, rho(x, y));
+                let [to_x, to_y] = view.target(x, y, rho(x, y));
                 let cost = if scale.contains(to_x, to_y) {
-                    let e = scale.brightness(to_x, to_y) - scale.first[(x, y)];
+                    let e = scale.second.at(to_x, to_y) - scale.first[(x, y)];
                     e * e * most / (most + e * e)
                 } else {
                     most

@@ -14,9 +14,12 @@
 //! `solver.rs` is the one loop: for each scale *estimate* (`estimate/`: motion and surface from normal equations), *label*
 //! (`label/`: who owns which pixel), and on the finest scale *refine* (`refine/`: depth pixel by pixel where it has steps).
 
+mod approach;
 mod compose;
 mod discontinuities;
 mod estimate;
+#[cfg(all(target_arch = "wasm32", feature = "bench"))]
+pub(crate) mod kernels;
 mod label;
 mod models;
 mod refine;
@@ -25,6 +28,7 @@ mod scale;
 mod solver;
 mod stages;
 mod start;
+mod view;
 mod warm;
 
 pub(crate) use solver::Layered;

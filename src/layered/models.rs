@@ -6,12 +6,15 @@
 //!
 //! The least score wins: of explanations that fit equally the one with fewer numbers and the flatter relief. Prices are
 //! those at which truly still, turning and translating regions of random scenes are told apart; they are higher than
-//! Schwarz's criterion, since smoothing leaves the noise of neighbouring pixels alike.
+//! Schwarz's criterion, since smoothing leaves the noise of neighbouring pixels alike. What no rigid motion explains, shadows
+//! and wrong labels, is explained in part by one that is free enough: E has to differ by [`SYSTEMATIC`] of itself for a
+//! turn on top of a translation to be taken, or for another direction of T to be ruled out.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::estimate::{
-    Blocks, Estimator, Free, NormalEquations, Outcome, Prior, State, Support, Surface, turn,
+    Blocks, Estimator, Free, NormalEquations, OTHER_DIRECTION, Outcome, Prior, State, Support,
+    Surface, turn,
 };
 use super::scale::Scale;
 use crate::motion_model::MotionModel;
@@ -22,14 +25,12 @@ const RELIEF: f64 = 100.0;
 const STEPS: [usize; 2] = [5, 3];
 /// Directions of T that are tried with a rotation and without.
 const DIRECTIONS: [usize; 2] = [5, 3];
-/// Candidates within this score of the best are tried again on a finer scale.
-const CLOSE: f64 = 60.0;
 /// A candidate with another direction of T within this score of the best explains the region as well, on a coarse scale.
 const EQUAL: f64 = 10.0;
-/// Cosine of the angle from which a direction of T is another.
-const OTHER: f64 = 0.9;
 /// Factor of prices on the scale where a model is selected: more pixels tell more.
 const FINE: f64 = 6.0;
+/// Share of E by which explanations may differ for what none of them explains, on the scale where a model is selected.
+const SYSTEMATIC: f64 = 0.04;
 
 /// An explanation of a region.
 pub(super) struct Candidate {
@@ -74,7 +75,6 @@ impl Problem<'_> {
         model: MotionModel,
         mut state: State,
         steps: usize,
-        price_factor: f64,
         (estimator, equations): (&mut Estimator, &mut NormalEquations),
     ) -> Candidate {
         let steps = if model == MotionModel::Still {
@@ -90,7 +90,7 @@ impl Problem<'_> {
         };
         let variance = f64::from(self.sigma * self.sigma);
         Candidate {
-            score: outcome.energy / variance + RELIEF * relief + price_factor * price(model),
+            score: outcome.energy / variance + RELIEF * relief,
             model,
             state,
             outcome,
@@ -110,7 +110,9 @@ impl Problem<'_> {
         let still = State::still(flat.clone());
         let mut found = Vec::new();
         let mut start = |model, state: State, found: &mut Vec<Candidate>| {
-            found.push(self.try_out(model, state, STEPS[0], 1.0, (estimator, equations)));
+            let mut tried = self.try_out(model, state, STEPS[0], (estimator, equations));
+            tried.score += price(model);
+            found.push(tried);
         };
         if select {
             start(MotionModel::Still, still.clone(), &mut found);
@@ -146,30 +148,62 @@ impl Problem<'_> {
                 start(model, mirror, &mut found);
             }
         }
-        distinct(found)
+        // Those that may be as good on a finer scale are tried again there.
+        distinct(found, FINE * EQUAL)
     }
 
-    /// The explanations given, the best first, after a few more steps of all but the first.
+    /// Whether what [`Self::search`] found has another explanation that fits as well.
+    pub fn is_ambiguous(&self, candidates: &[Candidate]) -> bool {
+        ambiguous(candidates, EQUAL)
+    }
+
+    /// The same of what [`Self::select`] left.
+    pub fn stays_ambiguous(&self, candidates: &[Candidate]) -> bool {
+        let energy = candidates.first().map_or(0.0, |c| c.outcome.energy);
+        ambiguous(
+            candidates,
+            SYSTEMATIC * energy / f64::from(self.sigma * self.sigma),
+        )
+    }
+
+    /// The explanations given, the best first, after a few more steps of all but the first; with them a translation and a
+    /// mirror image, where a full motion comes first that has none; no translation unless the model is to be selected.
     pub fn select(
         &self,
-        given: Vec<(MotionModel, State)>,
+        mut given: Vec<(MotionModel, State)>,
+        select: bool,
         (estimator, equations): (&mut Estimator, &mut NormalEquations),
     ) -> Vec<Candidate> {
+        if let Some((MotionModel::Full, own)) = given.first().cloned() {
+            if select && given.iter().all(|(m, _)| *m != MotionModel::Translation) {
+                given.push((MotionModel::Translation, unturned(&own)));
+            }
+            given.push((MotionModel::Full, mirrored(&own)));
+        }
         let tried = given.into_iter().enumerate().map(|(n, (model, state))| {
             let steps = if n == 0 { 0 } else { STEPS[1] };
-            self.try_out(model, state, steps, FINE, (estimator, equations))
+            self.try_out(model, state, steps, (&mut *estimator, &mut *equations))
         });
-        distinct(tried.collect())
+        let mut tried: Vec<Candidate> = tried.collect();
+        let least = (tried.iter().map(|c| c.outcome.energy)).fold(f64::INFINITY, f64::min);
+        let turn = SYSTEMATIC * least / f64::from(self.sigma * self.sigma);
+        for candidate in &mut tried {
+            candidate.score += match candidate.model {
+                MotionModel::Full => FINE * price(MotionModel::Translation) + turn,
+                model => FINE * price(model),
+            };
+        }
+        distinct(tried, turn)
     }
 }
 
 /// The best first; of each model only the best, and the best whose T points elsewhere; none that is far off.
-fn distinct(mut found: Vec<Candidate>) -> Vec<Candidate> {
+fn distinct(mut found: Vec<Candidate>, close: f64) -> Vec<Candidate> {
     found.sort_by(|a, b| a.score.total_cmp(&b.score));
     let Some(best) = found.first() else {
         return found;
     };
-    let (limit, direction) = (best.score + CLOSE, best.state.translation);
+    let (limit, direction) = (best.score + close, best.state.translation);
     let mut kept: Vec<Candidate> = Vec::new();
     let mut elsewhere = false;
     for candidate in found {
@@ -185,12 +219,12 @@ fn distinct(mut found: Vec<Candidate>) -> Vec<Candidate> {
 
 fn points_elsewhere(candidate: &Candidate, direction: DVec3) -> bool {
     let own = candidate.state.translation.normalize_or_zero();
-    candidate.model.translates() && own.dot(direction.normalize_or_zero()) < OTHER
+    candidate.model.translates() && own.dot(direction.normalize_or_zero()) < OTHER_DIRECTION
 }
 
-/// Whether, of candidates with the best first, another with another direction of T explains the region as well.
-pub(super) fn ambiguous(candidates: &[Candidate], fine: bool) -> bool {
-    let equal = if fine { FINE * EQUAL } else { EQUAL };
+/// Whether, of candidates with the best first, another with another direction of T explains the region as well: its
+/// score is less than `equal` more.
+fn ambiguous(candidates: &[Candidate], equal: f64) -> bool {
     let Some((best, rest)) = candidates.split_first() else {
         return false;
     };
@@ -199,6 +233,18 @@ pub(super) fn ambiguous(candidates: &[Candidate], fine: bool) -> bool {
         && rest
             .iter()
             .any(|c| points_elsewhere(c, direction) && c.score < best.score + equal)
+}
+
+/// A flat surface that slides where it turned.
+fn unturned(state: &State) -> State {
+    let (t, w) = (state.translation, state.omega());
+    let mut surface = state.surface.clone();
+    surface.rho.fill(1.0);
+    State {
+        translation: DVec3::new(t.x + w.y, t.y - w.x, t.z),
+        rotation: DMat3::IDENTITY,
+        surface,
+    }
 }
 
 /// The explanation that differs by perspective alone: hollow where the other bulges, and turning the other way.
@@ -216,85 +262,4 @@ fn mirrored(state: &State) -> State {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::camera::Camera;
-    use crate::window::Window;
-
-    fn state() -> State {
-        let mut surface = Surface::flat(8, &Window::whole(64, 48));
-        for (n, rho) in surface.rho.iter_mut().enumerate() {
-            *rho = 1.0 + 0.3 * (0.9 * n as f32).sin();
-        }
-        State {
-            translation: DVec3::new(0.02, -0.01, 0.015),
-            rotation: turn(DVec3::new(0.01, 0.02, -0.005)),
-            surface,
-        }
-    }
-
-    #[test]
-    fn the_mirror_image_of_the_mirror_image_is_the_thing_itself() {
-        let (own, twice) = (state(), mirrored(&mirrored(&state())));
-        assert!((own.translation - twice.translation).length() < 1e-12);
-        assert!((own.omega() - twice.omega()).length() < 1e-9);
-        for (a, b) in own.surface.rho.iter().zip(&twice.surface.rho) {
-            assert!((a - b).abs() < 1e-6);
-        }
-    }
-
-    #[test]
-    fn through_a_long_lens_the_mirror_image_moves_alike() {
-        // Without T_z, whose flow the mirror keeps only for ρ = 1.
-        let mut own = state();
-        own.translation.z = 0.0;
-        let other = mirrored(&own);
-        let camera = Camera::centred(1000.0, 64, 48).unwrap();
-        for (x, y) in [(3.0, 4.0), (40.0, 20.0), (60.0, 44.0)] {
-            let go = |s: &State| {
-                let rho = f64::from(s.surface.at(x as f32, y as f32));
-                camera.displacement(&s.motion(), x, y, rho).unwrap()
-            };
-            let ((u, v), (p, q)) = (go(&own), go(&other));
-            let apart = (u - p).hypot(v - q);
-            assert!(apart < 0.05 * u.hypot(v), "{apart} of ({u}, {v})");
-            assert!(
-                (own.surface.at(x as f32, y as f32) - other.surface.at(x as f32, y as f32)).abs()
-                    > 0.01
-            );
-        }
-    }
-
-    fn candidate(model: MotionModel, translation: DVec3, score: f64) -> Candidate {
-        Candidate {
-            model,
-            state: State {
-                translation,
-                ..state()
-            },
-            outcome: Outcome::default(),
-            score,
-        }
-    }
-
-    #[test]
-    fn only_another_direction_that_fits_as_well_makes_it_ambiguous() {
-        use MotionModel::{Full, Still};
-        let (x, y) = (DVec3::X, DVec3::Y);
-        let of =
-            |other: Candidate| ambiguous(&distinct(vec![other, candidate(Full, x, 100.0)]), false);
-        assert!(of(candidate(Full, y, 105.0)));
-        assert!(of(candidate(Full, -x, 105.0)));
-        assert!(!of(candidate(Full, y, 100.0 + 2.0 * EQUAL)));
-        assert!(!of(candidate(Full, x + 0.1 * y, 105.0)));
-        assert!(!of(candidate(Still, DVec3::ZERO, 105.0)));
-        let kept = distinct(vec![
-            candidate(Full, y, 100.0 + 2.0 * CLOSE),
-            candidate(Full, x, 100.0),
-            candidate(Still, DVec3::ZERO, 110.0),
-            candidate(Still, DVec3::ZERO, 120.0),
-        ]);
-        let scores: Vec<f64> = kept.iter().map(|c| c.score).collect();
-        assert_eq!(scores, [100.0, 110.0]);
-    }
-}
+mod tests;

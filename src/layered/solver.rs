@@ -23,21 +23,18 @@ use crate::curves;
 use crate::energy::Energy;
 use crate::frames::{FramePair, Lighting};
 use crate::grid::Grid;
-use crate::interpretation::Interpretation;
 use crate::options::Options;
-use crate::solver::{Approach, Expected, Next, RegionState, Weights};
+use crate::solver::{Next, Weights};
 use crate::window::Window;
 
 /// Planar rounds at most.
-const PLANAR_ROUNDS: usize = 6;
+pub(super) const PLANAR_ROUNDS: usize = 6;
 /// Rigid passes of a scale at least and at most.
 const PASSES: [usize; 2] = [2, 4];
 /// The first scale is the finest whose shorter side has no more pixels than this.
 const FIRST_SIDE: usize = 150;
 /// Pixels between control points on the scale after the first.
 const SPACING: usize = 8;
-/// σ of a region before anything is fitted, grey levels.
-const UNKNOWN_SIGMA: f32 = 10.0;
 
 /// Where a solve stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +51,7 @@ pub(super) enum Phase {
 }
 
 /// What a pass that raises the energy is taken back to.
-struct Before {
+pub(super) struct Before {
     energy: Energy,
     labels: Grid<u8>,
     states: Vec<(State, PlanarFlow)>,
@@ -85,7 +82,7 @@ pub(crate) struct Layered {
     pub(super) memory: Memory,
     pub(super) energy: Energy,
     pub(super) weights: Weights,
-    before: Option<Before>,
+    pub(super) before: Option<Before>,
     /// Whether the last pass was taken back.
     rejected: bool,
 }
@@ -117,8 +114,8 @@ impl Layered {
             labels: Grid::new(1, 1, 0),
             offered: Grid::new(1, 1, super::label::NOBODY),
             regions: Vec::new(),
-            sigma: UNKNOWN_SIGMA,
-            label_sigma: UNKNOWN_SIGMA,
+            sigma: 1.0,
+            label_sigma: 1.0,
             estimator: Estimator::default(),
             memory: Memory::default(),
             energy: Energy::default(),
@@ -132,7 +129,7 @@ impl Layered {
     }
 
     /// Begins at the first scale with these curves.
-    fn place(&mut self, level_sets: &[Grid<f32>]) {
+    pub(super) fn place(&mut self, level_sets: &[Grid<f32>]) {
         self.level = self.first;
         self.phase = Phase::Planar(0);
         self.warm = false;
@@ -198,7 +195,7 @@ impl Layered {
     }
 
     /// Takes the pass back if it has raised the energy.
-    fn accept_or_reject(&mut self) {
+    pub(super) fn accept_or_reject(&mut self) {
         let energy = self.energy.total();
         self.rejected = self
             .before
@@ -225,7 +222,7 @@ impl Layered {
     }
 
     /// What comes after a pass of the present phase in which so many pixels changed region.
-    fn after(&mut self, changed: f64, options: &Options) -> (Phase, Next) {
+    pub(super) fn after(&mut self, changed: f64, options: &Options) -> (Phase, Next) {
         let still = changed <= options.tolerance;
         let alone = self.regions.len() == 1;
         match self.phase {
@@ -256,114 +253,5 @@ impl Layered {
             }
             Phase::Refine | Phase::Done => (Phase::Done, Next::Done),
         }
-    }
-}
-
-impl Approach for Layered {
-    fn find_motions(&mut self, options: &Options) {
-        match self.phase {
-            Phase::Planar(done) => self.fit_planes(done),
-            Phase::Search => self.search_motions(options),
-            Phase::Rigid(done) => {
-                if done == 0 {
-                    self.measure_sigma(options);
-                }
-                self.estimate(options);
-                if done == 0 && !self.warm && self.level == self.first.saturating_sub(1) {
-                    self.select_models(options);
-                }
-            }
-            Phase::Refine | Phase::Done => {}
-        }
-    }
-
-    fn find_depth(&mut self, options: &Options) {
-        match self.phase {
-            Phase::Planar(_) | Phase::Done => {}
-            Phase::Search | Phase::Rigid(_) => self.estimate_depth(options),
-            Phase::Refine => self.refine_discontinuities(),
-        }
-    }
-
-    fn move_curves(&mut self, options: &Options) {
-        match self.phase {
-            Phase::Planar(done) => self.label_planes(done, options),
-            Phase::Search | Phase::Rigid(_) => self.label(options),
-            Phase::Refine | Phase::Done => return,
-        }
-        self.accept_or_reject();
-    }
-
-    fn end_pass(&mut self, changed: f64, _still: bool, options: &Options) -> Next {
-        let (phase, next) = self.after(changed, options);
-        self.phase = phase;
-        if next == Next::Another {
-            self.before = None;
-        }
-        next
-    }
-
-    /// What was found stays; the scale at work is gone through once more.
-    fn reconsider(&mut self, options: &Options) {
-        if options.smoothing != self.smoothing {
-            self.smoothing = options.smoothing;
-            let camera = self.scales[0].camera;
-            self.scales = pyramid(&self.pair, camera, options.smoothing, self.lighting);
-        }
-        self.find_windows();
-        self.before = None;
-        if matches!(self.phase, Phase::Done | Phase::Refine | Phase::Rigid(_)) {
-            self.phase = Phase::Rigid(0);
-            self.regions.iter_mut().for_each(|r| r.dense = None);
-        }
-    }
-
-    fn replace_curves(&mut self, level_sets: Vec<Grid<f32>>, _: &Options) {
-        self.before = None;
-        self.place(&level_sets);
-    }
-
-    fn advance(&mut self, pair: Rc<FramePair>, options: &Options) {
-        self.before = None;
-        self.follow(pair, options);
-    }
-
-    fn energy(&self, _: &Options) -> Energy {
-        self.energy
-    }
-
-    fn labels(&self) -> &Grid<u8> {
-        &self.labels
-    }
-
-    fn level_sets(&self) -> Vec<Grid<f32>> {
-        self.smooth_level_sets()
-    }
-
-    fn regions(&self) -> Vec<RegionState> {
-        let hides: Vec<bool> = self.regions.iter().map(|r| r.hides).collect();
-        let state = |(k, region): (usize, &Region)| RegionState {
-            motion: region.state.motion(),
-            model: region.model,
-            ambiguous: region.ambiguous,
-            in_front_of: if hides[k] { vec![0] } else { Vec::new() },
-        };
-        self.regions.iter().enumerate().map(state).collect()
-    }
-
-    fn weights(&self) -> Weights {
-        self.weights
-    }
-
-    fn scale(&self) -> (usize, usize) {
-        (self.level, self.first + 1)
-    }
-
-    fn expected(&self) -> Option<Expected> {
-        self.expected_now()
-    }
-
-    fn interpretation(&self, options: &Options) -> Interpretation {
-        self.compose(options)
     }
 }

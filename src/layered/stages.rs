@@ -3,23 +3,20 @@
 //! Motion is found under weak charges for curvature and held, then the surface under strong ones: weak ones alone leave
 //! depth rough, strong ones alone turn T, since smoothness prefers the T that needs the least relief.
 
-use super::estimate::{Free, State, Support, surface_energy};
+use super::estimate::{Free, Prior, State, Support, saturation, surface_energy};
 use super::label::{LENGTH_OF_PULL, Occlusion, drop_small_components, rigid_residual};
-use super::models::{Problem, ambiguous, free};
+use super::models::{Problem, free};
 use super::solver::{Layered, Phase};
 use crate::motion_model::MotionModel;
 use crate::options::Options;
 use crate::solver::Weights;
+use crate::spread::LEAST_SIGMA;
 use crate::window::Window;
 
 /// What curvature is charged while motion is found, and for depth, in variances of the residual, px².
-const STIFFNESS: [f64; 2] = [1e5, 1e6];
+pub(super) const STIFFNESS: [f64; 2] = [1e5, 1e6];
 /// Gauss–Newton steps of motion with depth, and of depth alone.
-const STEPS: [usize; 2] = [2, 2];
-/// Least σ in grey levels: frames of 8 bits are not known better, smoothed as they are.
-const LEAST_SIGMA: f32 = 0.4;
-/// Pixels of the finest scale by which a surface reaches beyond what its region owns.
-const MARGIN: usize = 16;
+const STEPS: usize = 2;
 /// What a pixel of curve costs in units of the largest cost of a pixel: on coarse scales and in the first pass of the
 /// finest, so that curves do not stick, and at last.
 const PULL: [f32; 3] = [1.0, 2.0, 4.0];
@@ -33,22 +30,23 @@ impl Layered {
         let (labels, offered) = (self.labels.data(), self.offered.data());
         for (k, region) in self.regions.iter_mut().enumerate() {
             let owns = |i: usize| usize::from(labels[i]) == k;
-            region.window = Window::around(width, height, 0, owns);
+            region.window = Window::around(width, height, owns);
             let reach = |i: usize| owns(i) || usize::from(offered[i]) == k;
-            region.reach = Window::around(width, height, 0, reach);
+            region.reach = Window::around(width, height, reach);
             region.fresh = false;
         }
     }
 
-    /// The window of the finest scale over which the surface of region k reaches: the background's over all.
+    /// The window of the finest scale over which the surface of region k reaches: two cells beyond what it owns, the
+    /// background's over all.
     pub(super) fn reach_of(&self, k: usize, window: Window) -> Window {
         let (width, height) = (self.pair.width(), self.pair.height());
         if k == 0 {
             return Window::whole(width, height);
         }
-        let level = self.level;
-        let first = |edge: usize| (edge << level).saturating_sub(MARGIN);
-        let last = |edge: usize, most: usize| ((edge << level) + MARGIN).min(most);
+        let (level, margin) = (self.level, 2 * self.spacing());
+        let first = |edge: usize| (edge << level).saturating_sub(margin);
+        let last = |edge: usize, most: usize| ((edge << level) + margin).min(most);
         let (left, top) = (first(window.left), first(window.top));
         Window {
             left,
@@ -75,18 +73,20 @@ impl Layered {
     pub(super) fn measure_sigma(&mut self, options: &Options) {
         self.improve(STIFFNESS[0], 1, true, options);
         let owned = self.regions.iter().filter(|r| r.window.is_some());
-        self.sigma = owned.map(|r| r.outcome.spread).fold(LEAST_SIGMA, f32::max);
+        self.sigma = owned
+            .map(|r| r.outcome.spread)
+            .fold(LEAST_SIGMA as f32, f32::max);
         self.regions.iter_mut().for_each(|r| r.fresh = false);
     }
 
     /// Stage 1: motion and surface of every region.
     pub(super) fn estimate(&mut self, options: &Options) {
-        self.improve(STIFFNESS[0], STEPS[0], true, options);
+        self.improve(STIFFNESS[0], STEPS, true, options);
     }
 
     /// Stage 1, the surface alone, motion held.
     pub(super) fn estimate_depth(&mut self, options: &Options) {
-        self.improve(STIFFNESS[1], STEPS[1], false, options);
+        self.improve(STIFFNESS[1], STEPS, false, options);
         let prior = self.prior(STIFFNESS[1], self.sigma, options);
         let owned = self.regions.iter().filter(|r| r.window.is_some());
         self.energy.smoothness = (owned.clone())
@@ -97,40 +97,41 @@ impl Layered {
 
     fn improve(&mut self, stiffness: f64, steps: usize, moving: bool, options: &Options) {
         let prior = self.prior(stiffness, self.sigma, options);
-        for (k, region) in self.regions.iter_mut().enumerate() {
-            let Some(window) = region.reach.filter(|_| region.window.is_some()) else {
-                continue;
-            };
-            let problem = Problem {
-                scale: &self.scales[self.level],
-                level: self.level,
-                support: Support {
-                    offered: Some(&self.offered),
-                    ..Support::of(&self.labels, k, window)
-                },
-                prior,
-                sigma: self.sigma,
-            };
-            let free = if moving {
-                free(region.model)
-            } else {
-                Free::Depth
-            };
-            let moves = if moving {
-                region.model != MotionModel::Still
-            } else {
-                region.model.translates()
-            };
-            region.outcome = self.estimator.improve(
-                &problem,
-                &mut region.state,
-                free,
-                if moves { steps } else { 0 },
-                &mut region.equations,
-                region.fresh,
-            );
-            region.fresh = true;
+        for k in 0..self.regions.len() {
+            self.improve_region(k, prior, steps, moving);
         }
+    }
+
+    /// Up to `steps` steps of region k's surface, and of its motion where `moving`.
+    pub(super) fn improve_region(&mut self, k: usize, prior: Prior, steps: usize, moving: bool) {
+        let region = &mut self.regions[k];
+        let Some(window) = region.reach.filter(|_| region.window.is_some()) else {
+            return;
+        };
+        let problem = Problem {
+            scale: &self.scales[self.level],
+            level: self.level,
+            support: Support {
+                offered: Some(&self.offered),
+                ..Support::of(&self.labels, k, window)
+            },
+            prior,
+            sigma: self.sigma,
+        };
+        let (free, moves) = if moving {
+            (free(region.model), region.model != MotionModel::Still)
+        } else {
+            (Free::Depth, region.model.translates())
+        };
+        region.outcome = self.estimator.improve(
+            &problem,
+            &mut region.state,
+            free,
+            if moves { steps } else { 0 },
+            &mut region.equations,
+            region.fresh,
+        );
+        region.fresh = true;
     }
 
     /// Compares the motion models that are left.
@@ -157,8 +158,8 @@ impl Layered {
             let mut given = vec![(region.model, region.state.clone())];
             given.extend(alternatives.into_iter().map(over));
             let memory = (&mut self.estimator, &mut region.equations);
-            let found = problem.select(given, memory);
-            region.ambiguous = ambiguous(&found, true);
+            let found = problem.select(given, options.model_selection, memory);
+            region.ambiguous = problem.stays_ambiguous(&found);
             if let Some(best) = found.into_iter().next() {
                 region.model = best.model;
                 region.state = best.state;
@@ -175,7 +176,7 @@ impl Layered {
             rigid_residual(scale, level, region, residuals);
         }
         if !matches!(self.phase, Phase::Rigid(done) if done > 0) {
-            self.label_sigma = self.memory.spread(&self.labels).max(LEAST_SIGMA);
+            self.label_sigma = self.memory.spread(&self.labels).max(LEAST_SIGMA as f32);
         }
         self.memory.charge(self.label_sigma);
         let occlusion = (options.occlusion && self.regions.len() > 1).then(|| {
@@ -206,7 +207,7 @@ impl Layered {
         for (region, costs) in self.regions.iter().zip(&mut self.memory.costs) {
             rigid_residual(scale, self.level, region, costs);
         }
-        self.label_sigma = self.memory.spread(&self.labels).max(LEAST_SIGMA);
+        self.label_sigma = self.memory.spread(&self.labels).max(LEAST_SIGMA as f32);
         self.memory.charge(self.label_sigma);
     }
 
@@ -220,7 +221,7 @@ impl Layered {
         } else {
             self.sigma
         };
-        let most = super::label::saturation(sigma);
+        let most = saturation(sigma);
         let beta = match options.lambda {
             Some(lambda) => (lambda / LENGTH_OF_PULL) as f32,
             None => pull.unwrap_or(PLANAR_PULL) * most,

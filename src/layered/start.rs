@@ -5,8 +5,9 @@
 
 use super::estimate::{Blocks, Degree, PlanarFlow, Support, Surface};
 use super::label::{coarsened, planar_cost};
-use super::models::{Problem, ambiguous};
+use super::models::Problem;
 use super::solver::Layered;
+use super::stages::STIFFNESS;
 use crate::grid::Grid;
 use crate::options::Options;
 use crate::window::Window;
@@ -19,8 +20,6 @@ const STEPS: usize = 3;
 const LARGE: usize = 8000;
 /// Least σ of a planar fit in the search, grey levels.
 const LEAST_SIGMA: f32 = 0.7;
-/// What curvature of a candidate is charged, in variances of the residual, px².
-const STIFFNESS: f64 = 1e5;
 
 impl Layered {
     /// Fits a plane to every region.
@@ -88,13 +87,13 @@ impl Layered {
                 scale: &self.scales[self.level + up],
                 level: self.level + up,
                 support: Support::of(&labels, k, coarse),
-                prior: self.prior(STIFFNESS, sigma, options),
+                prior: self.prior(STIFFNESS[0], sigma, options),
                 sigma,
             };
             let region = &mut self.regions[k];
             let memory = (&mut self.estimator, &mut region.equations);
             let found = problem.search(&blocks, &flat, select, memory);
-            region.ambiguous = ambiguous(&found, false);
+            region.ambiguous = problem.is_ambiguous(&found);
             region.fresh = false;
             region.dense = None;
             let mut found = found.into_iter();
@@ -114,7 +113,7 @@ impl Layered {
 /// The window around a label.
 fn around(labels: &Grid<u8>, k: usize) -> Option<Window> {
     let data = labels.data();
-    Window::around(labels.width(), labels.height(), 0, |i| {
+    Window::around(labels.width(), labels.height(), |i| {
         usize::from(data[i]) == k
     })
 }

@@ -103,7 +103,8 @@ impl Banded {
     }
 }
 
-fn dot(a: &[f32], b: &[f32]) -> f32 {
+/// Σ a b.
+pub fn dot(a: &[f32], b: &[f32]) -> f32 {
     let (a8, a_rest) = a.as_chunks::<8>();
     let (b8, b_rest) = b.as_chunks::<8>();
     let mut sum = f32x8::ZERO;

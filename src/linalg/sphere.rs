@@ -5,14 +5,12 @@
 
 use glam::DVec3;
 
-/// 2π (1 − 1/φ), φ the golden ratio: radians.
-const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
-
 /// `count` directions with z > 0.
 pub fn hemisphere(count: usize) -> impl Iterator<Item = DVec3> {
+    let golden_angle = std::f64::consts::PI * (3.0 - 5f64.sqrt());
     (0..count).map(move |i| {
         let z = (i as f64 + 0.5) / count as f64;
-        let (sin, cos) = (i as f64 * GOLDEN_ANGLE).sin_cos();
+        let (sin, cos) = (i as f64 * golden_angle).sin_cos();
         let radius = (1.0 - z * z).sqrt();
         DVec3::new(radius * cos, radius * sin, z)
     })

@@ -9,7 +9,10 @@ use crate::error::Error;
 
 /// What kind of control an option wants.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Control {
     /// A real number.
@@ -41,7 +44,10 @@ pub enum Control {
 
 /// One of the words an option can be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Choice {
     /// The word.
     pub value: &'static str,
@@ -51,11 +57,14 @@ pub struct Choice {
 
 /// One option, described.
 #[derive(Clone, Debug, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Descriptor {
     /// Its key in JSON; on the command line `--` and the key with dashes.
     #[cfg_attr(
-        target_arch = "wasm32",
+        all(target_arch = "wasm32", feature = "javascript"),
         tsify(type = "Exclude<keyof Options, \"preset\">")
     )]
     pub key: &'static str,
@@ -72,7 +81,10 @@ pub struct Descriptor {
     /// Its kind and range.
     #[serde(flatten)]
     // A union cannot be extended by an interface; named so, it becomes an intersection.
-    #[cfg_attr(target_arch = "wasm32", tsify(type = "Control"))]
+    #[cfg_attr(
+        all(target_arch = "wasm32", feature = "javascript"),
+        tsify(type = "Control")
+    )]
     pub control: Control,
 }
 

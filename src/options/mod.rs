@@ -22,7 +22,10 @@ pub const MAX_CURVES: usize = 7;
 
 /// A configuration to start from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Preset {
     /// Coarse to fine, a field of inverse depth per region, depth eliminated from the motion step.
@@ -47,7 +50,10 @@ impl Preset {
 
 /// The function g that smooths depth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Diffusion {
     /// (11) g(r) = 2√(1+r²) − 2: keeps depth edges.
@@ -58,7 +64,10 @@ pub enum Diffusion {
 
 /// Size at which frames are worked on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Detail {
     /// About 0.15 megapixels.
@@ -88,8 +97,28 @@ impl Detail {
 }
 
 /// All settings of a solver.
+///
+/// ```
+/// use relievo::Options;
+/// use relievo::options::{Preset, catalogue};
+///
+/// let options = Options { lambda: Some(200.0), ..Options::preset(Preset::Paper) };
+/// options.validate()?;
+/// assert_eq!(options, Options::from_json(r#"{"preset": "paper", "lambda": 200}"#)?);
+///
+/// let error = Options::from_json(r#"{"max_passes": 0}"#).unwrap_err();
+/// assert!(error.to_string().starts_with("max_passes is 0; it must be a whole number from 1"));
+///
+/// for option in catalogue() {
+///     println!("{}: {} {}", option.key, option.meaning, option.unit);
+/// }
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Options {
     /// Which solver, and what the other settings started from.
     pub preset: Preset,

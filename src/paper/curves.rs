@@ -10,7 +10,7 @@
 //! pixels are held to [`FASTEST`]. Stops after the number of steps asked for; works in a band around the curve, which
 //! is laid anew every few steps, and asks for residuals only there.
 
-use super::redistance::{Padded, Redistancing, Span};
+use super::redistance::{self, Padded, Redistancing, Span};
 use super::rows::{least, most};
 use crate::grid::Grid;
 
@@ -19,11 +19,6 @@ const FASTEST: f32 = 0.7;
 /// Advance in one step of a pixel that has the 70th percentile of speed, in pixels: leaves the faster ones room up to
 /// [`FASTEST`].
 const TYPICAL: f32 = 0.45;
-/// Steps after which the band is laid anew.
-const STEPS: usize = 5;
-/// Half width of the band, in pixels: differences reach one pixel a step, so that in [`STEPS`] steps nothing from
-/// farther off comes within a pixel of the line.
-const BAND: f32 = 6.0;
 /// Central curvature is stable up to λ dt = 1/4.
 const STABLE: f32 = 0.2;
 /// Distance in pixels up to which a neighbouring curve can take over what another leaves.
@@ -86,7 +81,8 @@ impl CurveEvolution {
         let dt = least(TYPICAL / most(typical, 1e-12), STABLE / most(lambda, 1e-12));
         for k in 0..phi.len() {
             for step in 0..steps {
-                if step > 0 && step % STEPS == 0 {
+                // Differences reach one pixel a step: by then the neighbours of the line feel the end of the band.
+                if step > 0 && step % (redistance::REACH as usize - 2) == 0 {
                     self.redistancing.run(&mut self.fronts[k].level);
                     self.find_speed(k, phi, xi);
                 }
@@ -199,7 +195,11 @@ fn changes([up, here, down]: [&[f32]; 3], speed: &[f32], dt: f32, lambda: f32, c
             down[i + 2] - down[i] - up[i + 2] + up[i],
         );
         let moved = dt * lambda * bend - advance * norm;
-        change[i] = if p.abs() < BAND { moved } else { 0.0 };
+        change[i] = if p.abs() < redistance::REACH - 1.0 {
+            moved
+        } else {
+            0.0
+        };
     }
 }
 

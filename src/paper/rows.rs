@@ -5,14 +5,12 @@
 
 use std::ops::Range;
 
-const LANES: usize = 8;
-
 /// Σ a.
 pub(super) fn sum(a: &[f32]) -> f64 {
-    let mut lanes = [0.0f32; LANES];
-    let (whole, rest) = a.as_chunks::<LANES>();
+    let mut lanes = [0.0f32; 8];
+    let (whole, rest) = a.as_chunks::<8>();
     for a in whole {
-        for i in 0..LANES {
+        for i in 0..8 {
             lanes[i] += a[i];
         }
     }
@@ -21,10 +19,10 @@ pub(super) fn sum(a: &[f32]) -> f64 {
 
 /// Σ a b.
 pub(super) fn dot(a: &[f32], b: &[f32]) -> f64 {
-    let mut lanes = [0.0f32; LANES];
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    let mut lanes = [0.0f32; 8];
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
     for (a, b) in a.iter().zip(b) {
-        for i in 0..LANES {
+        for i in 0..8 {
             lanes[i] += a[i] * b[i];
         }
     }

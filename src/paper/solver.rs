@@ -12,7 +12,7 @@ use super::motion::least_squares;
 use super::psi::Psi;
 use super::rows::{least, most, runs};
 use super::smoothness::Smoothness;
-use super::weights::{Noise, spread};
+use super::weights::Noise;
 use crate::camera::{Camera, RigidMotion};
 use crate::confidence::confidence;
 use crate::curves;
@@ -23,6 +23,7 @@ use crate::interpretation::{Flow, Interpretation, NEAREST_FARTHEST};
 use crate::motion_model::MotionModel;
 use crate::options::Options;
 use crate::solver::{Approach, Next, RegionState, Weights};
+use crate::spread::spread;
 
 /// Curves, motions and depth, and what they are judged by.
 pub(crate) struct Paper {
@@ -85,7 +86,7 @@ impl Paper {
         let mut psi = Vec::with_capacity(self.z.len());
         self.psi()
             .rows(&self.labels, &self.z, |row| psi.extend(row));
-        spread(psi)
+        spread(&mut psi)
     }
 
     /// Mean 1/Z of each region back to 1, T with it, which leaves every ψ as it is.

@@ -8,13 +8,12 @@
 
 use crate::options::Options;
 use crate::solver::Weights;
+use crate::spread::LEAST_SIGMA;
 
 /// μ/σ²: what the smoothness of depth counts.
 const MU_OVER_VARIANCE: f64 = 20.0;
 /// λ/σ²: what a pixel of curve counts.
 const LAMBDA_OVER_VARIANCE: f64 = 1.5;
-/// Least σ in grey levels: frames of 8 bits are not known better, derivatives included.
-const LEAST_SIGMA: f64 = 0.4;
 /// σ must fall at least to this share before μ is chosen again.
 const TIGHTER: f64 = 0.8;
 
@@ -57,15 +56,4 @@ impl Noise {
             sigma: self.now,
         }
     }
-}
-
-/// σ of residuals: 1.4826 times their median size, as for a Gaussian, whatever a minority does.
-pub(crate) fn spread(mut residuals: Vec<f32>) -> f64 {
-    if residuals.is_empty() {
-        return 0.0;
-    }
-    let middle = residuals.len() / 2;
-    let (_, median, _) =
-        residuals.select_nth_unstable_by(middle, |a, b| a.abs().total_cmp(&b.abs()));
-    1.4826 * f64::from(median.abs())
 }

@@ -9,7 +9,7 @@
 use super::cast::{Caster, Moment};
 use super::stage::Stage;
 use super::variant::Drawn;
-use super::{Entry, Sequence, camera, entry, truth};
+use super::{Draw, Entry, Sequence, camera, entry, truth};
 use crate::camera::Camera;
 use crate::curves::Shape;
 use crate::error::Error;
@@ -40,19 +40,12 @@ pub fn render_film(name: &str, width: usize, height: usize, frames: usize) -> Re
     Film::of(&stage, camera, [width, height], frames, |_| {})
 }
 
-/// Renders `frames` frames (2–100) of what [`variant`](super::variant()) draws with the same arguments.
+/// Renders `frames` frames (2–100) of what [`variant`](super::variant()) renders two frames of.
 ///
 /// # Errors
 /// Those of [`variant`](super::variant()), and [`Error::Count`] for another number of frames.
-pub fn variant_film(
-    base: &str,
-    seed: u64,
-    noise_sigma: f32,
-    displacement: f64,
-    [width, height]: [usize; 2],
-    frames: usize,
-) -> Result<Film, Error> {
-    Drawn::new(base, seed, noise_sigma, displacement, [width, height])?.film(frames)
+pub fn variant_film(draw: &Draw<'_>, frames: usize) -> Result<Film, Error> {
+    Drawn::new(draw)?.film(frames)
 }
 
 impl Film {

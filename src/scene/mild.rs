@@ -6,9 +6,9 @@
 
 use glam::{DMat3, DVec3};
 
-use super::Sequence;
 use super::lottery::Course;
 use super::variant::{Drawn, set_motion};
+use super::{Draw, Sequence};
 use crate::error::Error;
 
 /// How steeply the camera looks down, radians.
@@ -18,20 +18,12 @@ const TURN: f64 = 0.05;
 /// Share of the largest displacement that the background covers.
 const PACE: [f64; 2] = [0.3, 0.6];
 
-/// Films the stage of the variant of `base` ("blocks", "carousel" or "crowd") from `seed` from above, at `width × height`.
-/// Noise and the largest displacement as in [`variant`](super::variant()).
+/// Films the stage of the variant that `draw` decides from above.
 ///
 /// # Errors
 /// The same as those of [`variant`](super::variant()).
-pub fn mild(
-    base: &str,
-    seed: u64,
-    noise_sigma: f32,
-    displacement: f64,
-    width: usize,
-    height: usize,
-) -> Result<Sequence, Error> {
-    let mut drawn = Drawn::new(base, seed, noise_sigma, displacement, [width, height])?;
+pub fn mild(draw: &Draw<'_>) -> Result<Sequence, Error> {
+    let mut drawn = Drawn::new(draw)?;
     let ground = drawn.stage.parts[0].pose;
     let mut between = |[least, most]: [f64; 2]| drawn.dice.between(least, most);
     let around = std::f64::consts::TAU;
@@ -66,13 +58,11 @@ pub fn mild(
         part.pose.centre = ground.centre + more * (part.pose.centre - ground.centre);
         part.pose.rotation = more * part.pose.rotation;
     }
-    set_motion(stage, &courses, displacement);
-    Ok(Sequence {
-        name: format!("mild-{base}-{seed}"),
-        title: format!("{}, variant {seed}, from above", drawn.entry.title),
-        lesson: format!(
-            "Drawn at random, a background of little relief: {displacement} pixels at most, noise of {noise_sigma} grey levels."
-        ),
-        ..drawn.filmed()?
-    })
+    set_motion(stage, &courses, draw.displacement);
+    drawn.filmed(
+        draw,
+        "mild-",
+        ", from above",
+        ", a background of little relief",
+    )
 }

@@ -8,6 +8,7 @@ mod carousel;
 mod cast;
 mod columns;
 mod dice;
+mod draw;
 mod figure;
 mod film;
 mod flight;
@@ -35,12 +36,25 @@ use crate::frames::{Frame, check_size};
 use crate::interpretation::Interpretation;
 use stage::Stage;
 
+pub use draw::Draw;
 pub use film::{Film, render_film, variant_film};
 pub use mild::mild;
 pub use passing::passing;
 pub use variant::variant;
 
 /// Two frames, the curves to start from, and the truth.
+///
+/// ```
+/// use relievo::scene;
+///
+/// for entry in scene::catalogue() {
+///     println!("{}: {}", entry.title, entry.lesson);
+/// }
+/// let blocks = scene::render("blocks", 80, 60)?;
+/// assert_eq!(blocks.frames[0].width(), 80);
+/// assert_eq!(blocks.curves.len() + 1, blocks.truth.regions());
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sequence {
     /// Its name, as [`names`] lists it.
@@ -60,7 +74,7 @@ pub struct Sequence {
 /// A sequence that can be rendered.
 #[derive(Clone, Copy, Debug, Serialize)]
 #[cfg_attr(
-    target_arch = "wasm32",
+    all(target_arch = "wasm32", feature = "javascript"),
     derive(tsify::Tsify),
     tsify(rename = "SceneEntry")
 )]

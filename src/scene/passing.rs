@@ -6,10 +6,10 @@
 
 use glam::DVec3;
 
-use super::Sequence;
 use super::lottery::Course;
 use super::stage::Shadows;
 use super::variant::{Drawn, set_motion};
+use super::{Draw, Sequence};
 use crate::error::Error;
 
 /// How many times nearer bodies are brought.
@@ -17,20 +17,12 @@ const NEARER: f64 = 2.0;
 /// The camera's turn, as a share of its shift in scene units.
 const TURN: f64 = 0.05;
 
-/// Films the stage of the variant of `base` ("blocks", "carousel" or "crowd") from `seed`, standing still, at `width × height`.
-/// Noise and the largest displacement as in [`variant`](super::variant()).
+/// Films the stage of the variant that `draw` decides, standing still.
 ///
 /// # Errors
 /// The same as those of [`variant`](super::variant()).
-pub fn passing(
-    base: &str,
-    seed: u64,
-    noise_sigma: f32,
-    displacement: f64,
-    width: usize,
-    height: usize,
-) -> Result<Sequence, Error> {
-    let mut drawn = Drawn::new(base, seed, noise_sigma, displacement, [width, height])?;
+pub fn passing(draw: &Draw<'_>) -> Result<Sequence, Error> {
+    let mut drawn = Drawn::new(draw)?;
     let stage = &mut drawn.stage;
     for part in &mut stage.parts {
         if part.body > 0 {
@@ -53,13 +45,6 @@ pub fn passing(
         pace: 1.0,
         ..Course::default()
     };
-    set_motion(stage, &[course], displacement);
-    Ok(Sequence {
-        name: format!("passing-{base}-{seed}"),
-        title: format!("{}, variant {seed}, filmed in passing", drawn.entry.title),
-        lesson: format!(
-            "Drawn at random, one motion: {displacement} pixels at most, noise of {noise_sigma} grey levels."
-        ),
-        ..drawn.filmed()?
-    })
+    set_motion(stage, &[course], draw.displacement);
+    drawn.filmed(draw, "passing-", ", filmed in passing", ", one motion")
 }

@@ -12,9 +12,9 @@ use glam::DVec3;
 use super::cast::{Caster, Moment};
 use super::dice::Dice;
 use super::film::Film;
-use super::lottery::{Course, draw};
+use super::lottery::{self, Course};
 use super::stage::Stage;
-use super::{Entry, Sequence, blocks, camera, carousel, truth};
+use super::{Draw, Entry, Sequence, blocks, camera, carousel, truth};
 use crate::camera::{Camera, RigidMotion};
 use crate::error::{Error, within};
 use crate::grid::Grid;
@@ -37,31 +37,13 @@ const MOST_DISPLACEMENT: f64 = 16.0;
 /// Largest noise that can be asked for.
 const MOST_NOISE: f64 = 50.0;
 
-/// Draws a variant of `base` ("blocks" has two bodies, "carousel" three, "crowd" four) from `seed` and renders it at
-/// `width × height`. Both frames get Gaussian noise of `noise_sigma` grey levels (0–50), the same in all
-/// channels, and are rounded again; `displacement` (0.1–16) is the largest image motion in pixels
-/// at a width of 320, larger in proportion in larger frames.
+/// Renders the variant that `draw` decides. Frames are rounded again after noise.
 ///
 /// # Errors
 /// [`Error::Choice`] for another base, [`Error::Option`] for a noise or displacement out of range,
 /// [`Error::Size`] outside the limits of a frame.
-pub fn variant(
-    base: &str,
-    seed: u64,
-    noise_sigma: f32,
-    displacement: f64,
-    width: usize,
-    height: usize,
-) -> Result<Sequence, Error> {
-    let drawn = Drawn::new(base, seed, noise_sigma, displacement, [width, height])?;
-    Ok(Sequence {
-        name: format!("{base}-{seed}"),
-        title: format!("{}, variant {seed}", drawn.entry.title),
-        lesson: format!(
-            "Drawn at random: {displacement} pixels of motion at most, noise of {noise_sigma} grey levels."
-        ),
-        ..drawn.filmed()?
-    })
+pub fn variant(draw: &Draw<'_>) -> Result<Sequence, Error> {
+    Drawn::new(draw)?.filmed(draw, "", "", "")
 }
 
 /// A stage drawn from a seed, with all that filming it takes.
@@ -77,14 +59,15 @@ pub(super) struct Drawn {
 }
 
 impl Drawn {
-    /// The stage of the variant of `base` that `seed` decides, of `size` columns and rows; the rest as [`variant`] has it.
-    pub fn new(
-        base: &str,
-        seed: u64,
-        noise_sigma: f32,
-        displacement: f64,
-        size: [usize; 2],
-    ) -> Result<Self, Error> {
+    /// The stage of the variant.
+    pub fn new(draw: &Draw<'_>) -> Result<Self, Error> {
+        let Draw {
+            base,
+            seed,
+            noise_sigma,
+            displacement,
+            size,
+        } = *draw;
         let (entry, bodies) = match base {
             "blocks" => (blocks::ENTRY, 2),
             "carousel" => (carousel::ENTRY, 3),
@@ -108,10 +91,10 @@ impl Drawn {
         };
         let mut dice = Dice::new(seed ^ stream);
         let noise = Dice::new(dice.bits());
-        let (mut stage, mut courses) = draw(&mut dice, bodies);
+        let (mut stage, mut courses) = lottery::draw(&mut dice, bodies);
         let mut draws = 1;
         while !set_motion(&mut stage, &courses, displacement) && draws < DRAWS {
-            (stage, courses) = draw(&mut dice, bodies);
+            (stage, courses) = lottery::draw(&mut dice, bodies);
             draws += 1;
         }
         Ok(Self {
@@ -125,13 +108,33 @@ impl Drawn {
         })
     }
 
-    /// Two frames of the stage, under its base's name.
+    /// Two frames of the stage: what its name begins with, how it was filmed, and what that is an example of.
     ///
     /// # Errors
     /// Those of [`Film`].
-    pub fn filmed(self) -> Result<Sequence, Error> {
+    pub fn filmed(
+        self,
+        draw: &Draw<'_>,
+        prefix: &str,
+        how: &str,
+        example: &str,
+    ) -> Result<Sequence, Error> {
         let entry = self.entry;
-        Ok(self.film(2)?.sequence(&entry))
+        let Draw {
+            base,
+            seed,
+            noise_sigma,
+            displacement,
+            ..
+        } = draw;
+        Ok(Sequence {
+            name: format!("{prefix}{base}-{seed}"),
+            title: format!("{}, variant {seed}{how}", entry.title),
+            lesson: format!(
+                "Drawn at random{example}: {displacement} pixels of motion at most, noise of {noise_sigma} grey levels."
+            ),
+            ..self.film(2)?.sequence(&entry)
+        })
     }
 
     /// `frames` frames of the stage, each with noise of its own.

@@ -8,6 +8,7 @@ use super::report::Expected;
 use super::weights::Weights;
 use crate::camera::RigidMotion;
 use crate::energy::Energy;
+use crate::error::Error;
 use crate::frames::FramePair;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
@@ -43,6 +44,14 @@ pub(crate) trait Approach {
 
     /// Step 2.
     fn find_depth(&mut self, options: &Options);
+
+    /// Whether step 2 has anything to do yet.
+    ///
+    /// # Errors
+    /// A sentence that says what to do first.
+    fn check_depth(&self) -> Result<(), Error> {
+        Ok(())
+    }
 
     /// Step 3.
     fn move_curves(&mut self, options: &Options);

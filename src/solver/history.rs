@@ -10,8 +10,23 @@ use super::approach::Next;
 use crate::options::Options;
 
 /// Where the solver stands.
+///
+/// ```
+/// use relievo::Status;
+///
+/// let said = |status: Status| match status {
+///     Status::Running => "there is more to do",
+///     Status::Converged => "done",
+///     Status::Exhausted => "all passes are used up: look at it, or allow more",
+///     Status::Diverged => "the result means nothing",
+/// };
+/// assert_eq!(said(Status::Converged), "done");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// There is more to do.

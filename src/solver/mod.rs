@@ -35,6 +35,31 @@ use crate::working::{Working, upsampled};
 ///
 /// Frames, camera and curves are given, and results told, in pixels of the frames as they are; the option *Detail* says at
 /// what size they are worked on.
+///
+/// ```
+/// use relievo::options::Preset;
+/// use relievo::{FramePair, Options, Solver, Status, scene};
+///
+/// let film = scene::render_film("blocks", 64, 48, 3)?;
+/// let [first, second, third] = [0, 1, 2].map(|i| film.frames[i].clone());
+/// let pair = FramePair::new(first, second)?;
+/// let camera = film.truths[0].camera;
+/// let mut solver = Solver::new(pair, camera, &film.curves, Options::default())?;
+///
+/// // A pass at a time; what has been found so far can be looked at in between.
+/// while solver.step() == Status::Running {
+///     let report = solver.report();
+///     println!("pass {}: energy {:.0}", report.iterations, report.energy.total);
+/// }
+/// assert_eq!(solver.interpretation().regions(), 3);
+///
+/// // The following frame, from what was found; then all of it with other settings.
+/// solver.next(third)?;
+/// while solver.step() == Status::Running {}
+/// solver.set_options(Options::preset(Preset::Paper))?;
+/// assert_eq!(solver.step(), Status::Running);
+/// # Ok::<(), relievo::Error>(())
+/// ```
 pub struct Solver {
     pair: Rc<FramePair>,
     camera: Camera,
@@ -97,7 +122,7 @@ impl Solver {
     pub fn step(&mut self) -> Status {
         if self.status == Status::Running {
             self.step_motion();
-            self.step_depth();
+            self.find_depth();
             self.step_curves();
         }
         self.status
@@ -139,7 +164,16 @@ impl Solver {
     }
 
     /// Step 2 alone: depth, for the present motions and curves.
-    pub fn step_depth(&mut self) {
+    ///
+    /// # Errors
+    /// [`Error::Planes`] where there is no depth yet; then nothing is changed.
+    pub fn step_depth(&mut self) -> Result<(), Error> {
+        self.approach.check_depth()?;
+        self.find_depth();
+        Ok(())
+    }
+
+    fn find_depth(&mut self) {
         let start = (self.clock)();
         self.approach.find_depth(&self.options);
         self.seconds.depth += (self.clock)() - start;
@@ -306,13 +340,18 @@ impl Solver {
         let regions = found.regions() as u8;
         let outlines = |k: u8| {
             let own = |i: usize| found.labels.data()[i] == k;
-            let window = Window::around(width, height, 3, own)?;
-            let inside = window
-                .crop(&found.labels)
-                .map(|l| if l == k { 1.0 } else { -1.0 });
+            let window = Window::around(width, height, own)?;
+            // With a margin, so that an outline ends at the window's border only where the frame does.
+            let (left, top) = (window.left.saturating_sub(3), window.top.saturating_sub(3));
+            let right = (window.left + window.width + 3).min(width);
+            let bottom = (window.top + window.height + 3).min(height);
+            let inside = Grid::from_fn(right - left, bottom - top, |x, y| {
+                let own = found.labels[(left + x, top + y)] == k;
+                if own { 1.0f32 } else { -1.0 }
+            });
             let place = move |mut c: Contour| {
                 for p in &mut c.points {
-                    *p = [p[0] + window.left as f32, p[1] + window.top as f32];
+                    *p = [p[0] + left as f32, p[1] + top as f32];
                 }
                 c.enlarged(n)
             };

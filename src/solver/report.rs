@@ -11,7 +11,10 @@ use crate::motion_model::MotionModel;
 
 /// Seconds spent in each step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Seconds {
     /// Step 1.
     pub motion: f64,
@@ -23,7 +26,10 @@ pub struct Seconds {
 
 /// One region.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct RegionReport {
     /// 0 for the background, k for the k-th curve.
     pub label: usize,
@@ -46,7 +52,10 @@ pub struct RegionReport {
 
 /// The state of a solver.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Report {
     /// Passes made.
     pub iterations: usize,
@@ -81,7 +90,10 @@ pub struct Report {
 
 /// How good a result is expected to be, as the scale at work allows.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Expected {
     /// Mean error of the flow, pixels of the frame.
     pub flow: f64,
@@ -91,7 +103,10 @@ pub struct Expected {
 
 /// The terms of (7) and their sum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Terms {
     /// The terms.
     #[serde(flatten)]
@@ -102,7 +117,10 @@ pub struct Terms {
 
 /// Seconds in each step, and altogether.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Times {
     /// Altogether.
     pub total: f64,

@@ -4,7 +4,10 @@ use serde::Serialize;
 
 /// The weights in force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct Weights {
     /// μ of (7): grey levels² under `paper`, grey levels²·px² under `best`, which charges curvature.
     pub mu: f64,

@@ -20,6 +20,18 @@ const VERTICES: usize = 90_000;
 const LEAST_KNOWN: f32 = 0.02;
 
 /// A surface of triangles; flat lists as graphics cards want them.
+///
+/// ```
+/// use relievo::scene;
+/// use relievo::view::{self, ViewParams};
+///
+/// let flight = scene::render("flight", 64, 48)?;
+/// let mesh = view::mesh(&flight.frames[0], &flight.truth, &ViewParams::default());
+/// let vertices = mesh.positions.len() / 3;
+/// assert_eq!(mesh.normals.len(), 3 * vertices);
+/// assert!(mesh.indices.iter().all(|&i| (i as usize) < vertices));
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// x, y, z of each vertex.

@@ -48,7 +48,10 @@ pub type Picture = Grid<[u8; 4]>;
 
 /// A view as people choose it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct View {
     /// What [`draw`] calls it.
     pub kind: &'static str,

@@ -14,8 +14,24 @@ pub struct Choice {
 }
 
 /// Settings of all views; each reads those it needs. Missing ones take their defaults.
+///
+/// ```
+/// use relievo::view::{self, ViewParams};
+/// use relievo::{file::png, scene};
+///
+/// let columns = scene::render("columns", 64, 48)?;
+/// let params = ViewParams { glasses: "green-magenta".to_owned(), ..ViewParams::default() };
+/// let picture = view::draw("anaglyph", &columns.frames[0], &columns.truth, &[], &params)?;
+/// assert_eq!((picture.width(), picture.height()), (64, 48));
+/// let bytes = png::write_rgba(&picture)?;
+/// assert!(bytes.starts_with(b"\x89PNG"));
+/// # Ok::<(), relievo::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 #[serde(default, deny_unknown_fields)]
 pub struct ViewParams {
     /// Factor on each region's depth, the background first; 1 where missing.

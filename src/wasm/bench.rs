@@ -12,6 +12,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use super::write;
 use crate::frames::{Derivatives, Spline, blur, halved};
 use crate::grid::Grid;
+use crate::layered;
 
 /// Multiplications with additions in flight at once: enough to hide what each waits for.
 const LANES: usize = 32;
@@ -50,6 +51,9 @@ impl Kernels {
         };
         bounds(&mut all, plane(0.0));
         frames(&mut all, &plane(0.0), &plane(0.4));
+        layered::kernels::enter([&plane(0.0), &plane(0.4)], |name, bytes, flops, run| {
+            all.add(name, bytes, flops, run);
+        });
         Self(all.kernels)
     }
 

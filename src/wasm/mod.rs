@@ -12,6 +12,7 @@ mod catalogue;
 mod files;
 mod film;
 mod frame;
+mod kept;
 mod mesh;
 mod panic;
 mod scene;
@@ -26,6 +27,7 @@ pub use catalogue::{limits, option_catalogue, preset_catalogue, scene_catalogue,
 pub use files::SavedResult;
 pub use film::{Film, decode_all};
 pub use frame::{Frame, Picture};
+pub use kept::Kept;
 pub use mesh::Mesh;
 pub use panic::{panic_for_test, panic_message};
 pub use scene::Scene;

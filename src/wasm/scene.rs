@@ -85,7 +85,7 @@ impl Scene {
     pub fn files(&self) -> Result<Array, Error> {
         let Sequence { frames, truth, .. } = &self.sequence;
         let motion = MotionFile {
-            regions: RegionMotion::list(&truth.motions),
+            regions: RegionMotion::list(&truth.motions, &truth.models()),
             status: "truth".to_owned(),
             ..MotionFile::default()
         };

@@ -25,7 +25,7 @@ use crate::solver::Report;
 use crate::view::{self, ViewParams};
 
 /// Views that are saved with the results, and under which names.
-const PICTURES: [(&str, &str); 6] = [
+pub(super) const PICTURES: [(&str, &str); 6] = [
     ("segmentation", "segmentation.png"),
     ("depth", "depth.png"),
     ("relief", "relief.png"),
@@ -151,8 +151,8 @@ impl Solver {
 
     /// Step 2 alone.
     #[wasm_bindgen(js_name = stepDepth)]
-    pub fn step_depth(&mut self) {
-        self.change().step_depth();
+    pub fn step_depth(&mut self) -> Result<(), Error> {
+        self.change().step_depth()
     }
 
     /// Step 3 alone.
@@ -230,14 +230,7 @@ impl Solver {
 
     /// How far this is from the truth of `scene`, and Horn–Schunck from its image motion: a `ScoreTable` as JSON.
     pub fn scores(&self, scene: &Scene) -> Result<String, Error> {
-        let truth = &scene.sequence().truth;
-        let found = score::compare(self.found(), truth)?;
-        let baseline = score::compare_flow(&scene.baseline()?.flow, &truth.flow, None)?;
-        let (aee, aae) = baseline.unzip();
-        Ok(write(&ScoreTable {
-            found,
-            baseline: FlowScores { aee, aae },
-        }))
+        score_table(self.found(), scene)
     }
 
     /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`].
@@ -287,8 +280,20 @@ impl Solver {
     }
 }
 
+/// How far `found` and Horn–Schunck are from the truth of `scene`: a `ScoreTable` as JSON.
+pub(super) fn score_table(found: &Interpretation, scene: &Scene) -> Result<String, Error> {
+    let truth = &scene.sequence().truth;
+    let found = score::compare(found, truth)?;
+    let baseline = score::compare_flow(&scene.baseline()?.flow, &truth.flow, None)?;
+    let (aee, aae) = baseline.unzip();
+    Ok(write(&ScoreTable {
+        found,
+        baseline: FlowScores { aee, aae },
+    }))
+}
+
 impl Solver {
-    fn found(&self) -> &Interpretation {
+    pub(super) fn found(&self) -> &Interpretation {
         self.found.get_or_init(|| self.solver.interpretation())
     }
 
@@ -335,10 +340,12 @@ impl Solver {
             iterations,
             history,
             seconds,
+            regions,
             ..
         } = self.solver.report();
+        let models: Vec<_> = regions.iter().map(|region| region.model).collect();
         MotionFile {
-            regions: RegionMotion::list(&found.motions),
+            regions: RegionMotion::list(&found.motions, &models),
             status: self.status(),
             iterations,
             energy: history,

@@ -19,7 +19,10 @@ const WORK: [usize; 2] = [145, 35];
 
 /// A size at which frames can be worked on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
 pub struct WorkingSize {
     /// The option that asks for it.
     pub detail: Detail,

@@ -6,6 +6,7 @@ import { join } from "node:path";
 import { before, describe, test } from "node:test";
 
 import { Frame } from "../../cli/index.js";
+import { walls } from "../walls.js";
 import { file, folder, pgm, relievo, waves } from "./relievo.js";
 
 const [WIDTH, HEIGHT] = [64, 48];
@@ -277,6 +278,19 @@ describe("--auto", () => {
 
 describe("--focal auto", () => {
   const out = ["--iterations", "1", "--out", join(folder, "focal")];
+
+  test("finds the focal length where scenery before a turning camera tells it", () => {
+    const [width, truth] = [240, 3];
+    const frames = /** @type {const} */ ([0, 1]).map((t) =>
+      file(`walls${t}.pgm`, pgm(width, 180, walls(width, truth, t))),
+    );
+    const found = relievo(...frames, "--focal", "auto", ...out);
+    assert.equal(found.status, 0, found.stderr);
+    const line = /^focal length found, between (\d+) and (\d+) pixels: --focal (\d+)$/m;
+    const [, least = 0, greatest = 0, focal = 0] = (line.exec(found.stdout) ?? []).map(Number);
+    assert.ok(least < truth * width && truth * width < greatest, found.stdout);
+    assert.ok(least < focal && focal < greatest);
+  });
 
   test("takes the longer side where nothing tells it, and says so", () => {
     const kept = relievo(first, second, "--focal", "auto", ...out);

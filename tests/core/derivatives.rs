@@ -1,10 +1,10 @@
-//! Smoothing frames, differentiating them, and reading them between pixels.
+//! Smoothing frames and differentiating them.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::Grid;
-use relievo::frames::{Derivatives, Spline, blur, gradient};
+use relievo::frames::{Derivatives, blur, gradient};
 
 const W: usize = 24;
 const H: usize = 18;
@@ -63,7 +63,7 @@ fn derivatives_of_polynomials_are_exact() {
         let (x, y) = real(x, y);
         p(x, y) as f32
     });
-    let (ix, iy) = gradient(&picture);
+    let [ix, iy] = gradient(&picture);
     for y in 2..11 {
         for x in 2..15 {
             let at = (x, y);
@@ -95,51 +95,12 @@ fn derivatives_belong_to_the_moment_between_the_frames() {
 }
 
 #[test]
-fn between_pixels_linear_and_quadratic_pictures_are_exact() {
+fn between_pixels_linear_pictures_are_exact_and_beyond_the_border_is_the_border() {
     let plane = Grid::from_fn(W, H, |x, y| 2.0 * x as f32 - 0.5 * y as f32 + 1.0);
-    let bowl = Grid::from_fn(W, H, |x, y| {
-        let (x, y) = (x as f32 - 9.0, y as f32 - 8.0);
-        x * x - x * y + 0.5 * y * y
-    });
     for (x, y) in [(3.0f32, 4.0f32), (3.25, 4.75), (10.5, 9.1), (20.9, 15.9)] {
         assert!((plane.bilinear(x, y) - (2.0 * x - 0.5 * y + 1.0)).abs() < 1e-4);
-        let (dx, dy) = (x - 9.0, y - 8.0);
-        // The spline is mirrored at the border, which is felt some pixels from there.
-        let border = x.min(y).min((W - 1) as f32 - x).min((H - 1) as f32 - y);
-        let felt = 40.0 * (3f32.sqrt() - 2.0).abs().powf(border) + 1e-3;
-        let exact = dx * dx - dx * dy + 0.5 * dy * dy;
-        assert!((Spline::through(&bowl).at(x, y) - exact).abs() < felt);
     }
-    // Beyond the border, the border.
-    let spline = Spline::through(&plane);
     for (x, y, border) in [(-7.5, -3.0, (0, 0)), (99.0, 99.5, (W - 1, H - 1))] {
         assert_eq!(plane.bilinear(x, y), plane[border]);
-        assert!((spline.at(x, y) - plane[border]).abs() < 1e-4);
-    }
-}
-
-#[test]
-fn the_spline_goes_through_every_pixel_and_follows_fine_texture_between_them() {
-    let wave = |x: f32, y: f32| 50.0 * (0.9 * x + 0.4).sin() * (1.1 * y).cos();
-    let (width, height) = (60, 50);
-    let picture = Grid::from_fn(width, height, |x, y| wave(x as f32, y as f32));
-    let spline = Spline::through(&picture);
-    for (x, y) in [
-        (0, 0),
-        (1, 7),
-        (30, 20),
-        (width - 1, 3),
-        (width - 1, height - 1),
-    ] {
-        assert!((spline.at(x as f32, y as f32) - picture[(x, y)]).abs() < 1e-3);
-    }
-    // Six and seven pixels to a wave, halfway between pixels.
-    for (x, y) in [(20.5, 20.5), (31.5, 15.25), (40.3, 30.5)] {
-        let [off, linear] =
-            [spline.at(x, y), picture.bilinear(x, y)].map(|v| (v - wave(x, y)).abs());
-        assert!(
-            off < 0.5 && off < 0.1 * linear,
-            "{off} off, bilinear {linear}"
-        );
     }
 }

@@ -7,7 +7,7 @@ use relievo::file::motion::{MotionFile, RegionMotion, Seconds};
 use relievo::file::parts::Parts;
 use relievo::file::result::{self, ResultFiles};
 use relievo::file::{flo, kitti, pfm, png};
-use relievo::{Error, Flow, Grid, Interpretation, scene};
+use relievo::{Error, Flow, Grid, Interpretation, MotionModel, scene};
 
 fn flow() -> Flow {
     Flow {
@@ -146,6 +146,7 @@ fn motion_returns_exactly() {
             label: 1,
             translation: [0.1, -0.2, 1e-9],
             rotation: [0.0, 1.0 / 3.0, 0.0],
+            model: Some(MotionModel::Rotation),
         }],
         status: "converged".to_owned(),
         iterations: 2,
@@ -164,9 +165,13 @@ fn motion_returns_exactly() {
         "\"translation\"",
         "\"seconds\"",
         "\"energy\"",
+        "\"model\": \"rotation\"",
     ] {
         assert!(text.contains(key), "{key} is missing");
     }
+    // Files of others may not say what the model is.
+    let without = text.replace("\"model\": \"rotation\"", "\"note\": \"\"");
+    assert_eq!(MotionFile::read(&without).unwrap().regions[0].model, None);
     assert!(matches!(MotionFile::read("{"), Err(Error::Json { .. })));
 }
 
@@ -184,7 +189,7 @@ fn the_motion_of_a_run_that_diverged_can_be_read() {
 fn saved() -> (Interpretation, MotionFile, Vec<(&'static str, Vec<u8>)>) {
     let truth = scene::render("squares", 40, 30).unwrap().truth;
     let motion = MotionFile {
-        regions: RegionMotion::list(&truth.motions),
+        regions: RegionMotion::list(&truth.motions, &truth.models()),
         ..MotionFile::default()
     };
     let files = result::write(&truth, &motion).unwrap();

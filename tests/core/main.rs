@@ -16,7 +16,10 @@ mod fields;
 mod files;
 mod formats;
 mod frames;
+// WebAssembly reads no files.
 mod horn_schunck;
+#[cfg(not(target_arch = "wasm32"))]
+mod hostile;
 mod levels;
 mod lighting;
 mod options;

@@ -1,9 +1,9 @@
-//! Halving frames, cameras and fields, and doubling them again.
+//! Halving frames and cameras.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use relievo::frames::{doubled, halved, halved_camera};
+use relievo::frames::{halved, halved_camera};
 use relievo::{Camera, Grid};
 
 #[test]
@@ -47,14 +47,6 @@ fn ramps_stay_ramps() {
     for (width, height) in [(40, 30), (41, 31)] {
         let fine = Grid::from_fn(width, height, |x, y| ramp(x as f32, y as f32));
         let half = halved(&fine);
-        let back = doubled(&half, width, height);
-        assert!(back.same_size(&fine));
-        for y in 6..height - 7 {
-            for x in 6..width - 7 {
-                let difference = back[(x, y)] - fine[(x, y)];
-                assert!(difference.abs() < 1e-4, "{difference} at ({x}, {y})");
-            }
-        }
         for y in 3..half.height() - 3 {
             for x in 3..half.width() - 3 {
                 let centre = ramp(2.0 * x as f32 + 0.5, 2.0 * y as f32 + 0.5);
@@ -71,7 +63,7 @@ fn what_the_coarse_grid_cannot_hold_is_smoothed_away() {
     for y in 3..12 {
         for x in 3..17 {
             // Their mean is 33⅓; without smoothing they would come back as stripes of 0 and 50.
-            assert!((half[(x, y)] - 33.3).abs() < 8.0, "{}", half[(x, y)]);
+            assert!((half[(x, y)] - 33.3).abs() < 9.0, "{}", half[(x, y)]);
         }
     }
 }

@@ -1,8 +1,8 @@
-/** What a newcomer sees: a sequence with its curves drawn, ready to run. */
+/** What a sequence shows at first: its curves drawn, ready to run. */
 
 import { expect, look, read, test } from "./helpers";
 
-test("opens on the blocks with two curves drawn, ready to run", async ({ opened: page }) => {
+test("a sequence is there with its curves drawn, ready to run", async ({ opened: page }) => {
   await expect(page).toHaveTitle(/Relievo/);
   expect(await read(page, (state) => state.source)).toMatchObject({
     kind: "scene",

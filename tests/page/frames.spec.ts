@@ -3,6 +3,7 @@
 import type { Page } from "@playwright/test";
 
 import type { State } from "../../www/store";
+import { walls } from "../walls.js";
 import {
   expect,
   framesOf,
@@ -360,11 +361,39 @@ test("a focal length typed while one is looked for is kept", async ({ opened: pa
   expect(await read(page, (state) => state.camera.focal)).toBe(555);
 });
 
-test("the focal length is kept where the frames do not tell it", async ({ opened: page }) => {
+test("the focal length is found where the frames tell it, and kept where they do not", async ({
+  opened: page,
+}) => {
+  test.slow();
   const find = page.getByRole("button", { name: "Find f" });
   const field = page.getByLabel("Focal length f, px");
   const usual = await field.inputValue();
   await find.click();
   await expect(page.locator("#camera")).toContainText("do not tell f");
   expect(await field.inputValue()).toBe(usual);
+
+  const [width, height, truth] = [240, 180, 3];
+  const frames = ([0, 1] as const).map((t) => {
+    const grey = walls(width, truth, t);
+    const pixels = Array.from({ length: width * height }, (_, i) =>
+      Math.round(grey(i % width, Math.floor(i / width))),
+    );
+    return Buffer.concat([Buffer.from(`P5\n${width} ${height}\n255\n`), Buffer.from(pixels)]);
+  });
+  await first(page).setInputFiles(
+    frames.map((buffer, t) => ({
+      name: `walls${t}.pgm`,
+      mimeType: "image/x-portable-graymap",
+      buffer,
+    })),
+  );
+  await ownAreOpen(page);
+  await expect(page.locator("#camera")).not.toContainText("do not tell f");
+  expect(await field.inputValue()).toBe(String(width));
+  await find.click();
+  await expect(page.locator("#camera")).toContainText("as far as these frames tell", {
+    timeout: PATIENCE,
+  });
+  expect(Math.abs(Math.log(Number(await field.inputValue()) / (truth * width)))).toBeLessThan(0.4);
+  await expect(message(page)).toBeHidden();
 });

@@ -5,7 +5,7 @@ import { test as base, expect, type Page } from "@playwright/test";
 import type { State } from "../../www/store";
 
 /** The machine may be slow and shared: wait for what must happen, not for how fast. */
-export const PATIENCE = 30_000;
+export const PATIENCE = Number(process.env["RELIEVO_PATIENCE"] ?? 30_000);
 
 export const test = base.extend<{ opened: Page; patient: void }>({
   patient: [
@@ -26,8 +26,9 @@ export const test = base.extend<{ opened: Page; patient: void }>({
 
 export { expect };
 
-export async function open(page: Page): Promise<void> {
-  await page.goto("./");
+/** Two marble blocks with a circle on each, ready to run. */
+export async function open(page: Page, address = "./#blocks"): Promise<void> {
+  await page.goto(address);
   await ready(page);
 }
 
@@ -40,8 +41,10 @@ export function read<T>(page: Page, select: (state: State) => T): Promise<T> {
   return page.evaluate(`(${select})(window.relievo)`) as Promise<T>;
 }
 
+/** Asked from here again and again: the page's policy lets nobody leave code in it to wait. */
 export async function until(page: Page, holds: (state: State) => boolean): Promise<void> {
-  await page.waitForFunction(`(${holds})(window.relievo)`, undefined, { timeout: PATIENCE });
+  const answer = () => page.evaluate(`(${holds})(window.relievo)`).catch(() => false);
+  await expect.poll(answer, { timeout: PATIENCE, message: String(holds) }).toBe(true);
 }
 
 export const passes = (page: Page): Promise<number> =>

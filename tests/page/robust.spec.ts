@@ -9,10 +9,13 @@ import {
   openScene,
   PATIENCE,
   read,
+  ready,
   runPasses,
   test,
   until,
 } from "./helpers";
+
+const message = (page: Page) => page.locator("#message");
 
 /** Makes the core do `what` at the second step, in the first worker only. */
 async function sabotage(page: Page, what: string): Promise<void> {
@@ -84,6 +87,26 @@ test("a hang can be cancelled, even with a focal length that no camera has", asy
   await focal.fill("320");
   await focal.press("Enter");
   await runPasses(page, 3);
+});
+
+test("a core that cannot be loaded again can be once the line is back", async ({ page }) => {
+  // Three workers, one after the other, each of which loads the core.
+  test.slow();
+  await sabotage(page, "for (;;) {}");
+  await open(page);
+  const shapes = await read(page, (state) => state.shapes);
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+  await page.route(/\.wasm$/, (route) => route.abort());
+  await page.getByRole("button", { name: "Cancel" }).click();
+  await expect(message(page)).toContainText("core cannot be loaded", { timeout: PATIENCE });
+  await until(page, (state) => !state.running && state.busy === null && state.report === null);
+  await page.unroute(/\.wasm$/);
+  // The worker that could not load it says so once more; the next one can.
+  await page.getByRole("button", { name: "Run" }).click();
+  await until(page, (state) => !state.running && state.report?.iterations === 0);
+  expect(await read(page, (state) => state.shapes)).toEqual(shapes);
+  await runPasses(page, 2);
 });
 
 test("a core that cannot be loaded is said", async ({ page }) => {
@@ -175,4 +198,83 @@ test("the built page asks for the relief's library only when the relief is opene
   await chooseView(page, "Relief");
   await expect(page.locator("#relief canvas")).toBeVisible({ timeout: PATIENCE });
   expect(scripts.length).toBeGreaterThan(before);
+});
+
+test("a browser without WebAssembly SIMD is told what it lacks", async ({ page }) => {
+  await page.route(/\/worker-[^/]*\.js$/, async (route) => {
+    const response = await route.fetch();
+    const body = `WebAssembly.validate = () => false;\n${await response.text()}`;
+    await route.fulfill({ response, body });
+  });
+  await page.goto("./");
+  await expect(page.locator("#message")).toContainText("WebAssembly SIMD", { timeout: PATIENCE });
+});
+
+/** A worker that the browser ends, for want of memory, says `error` and no more. */
+function keepWorkers(): void {
+  const Real = Worker;
+  const made: Worker[] = [];
+  Object.assign(window, { workersMade: made });
+  window.Worker = class extends Real {
+    constructor(address: string | URL, options?: WorkerOptions) {
+      super(address, options);
+      made.push(this);
+    }
+  };
+}
+
+const killWorker = (page: Page) =>
+  page.evaluate(() => {
+    const worker = (window as unknown as { workersMade: Worker[] }).workersMade.at(-1)!;
+    worker.terminate();
+    worker.dispatchEvent(new ErrorEvent("error", { message: "out of memory" }));
+  });
+
+test("a worker killed at any moment is told; frames, curves and settings are there again", async ({
+  page,
+}, info) => {
+  // More of them with RELIEVO_KILLS.
+  const kills = Number(process.env["RELIEVO_KILLS"] ?? 4);
+  info.setTimeout((2 + kills) * PATIENCE);
+  await page.addInitScript(keepWorkers);
+  await open(page);
+  await page.getByRole("button", { name: "Add a circle" }).click();
+  await page.getByLabel("Preset").selectOption("paper");
+  await page.getByLabel("Pace").selectOption("as fast as it goes");
+  const shapes = await read(page, (state) => state.shapes);
+  const source = await read(page, (state) => state.source);
+  let state = 7;
+  for (let i = 0; i < kills; i += 1) {
+    await page.getByRole("button", { name: "Run" }).click();
+    await expect(page.locator("#message")).toBeHidden();
+    // A moment of its own each time, the same in each run of the test.
+    state = (state * 16_807) % 2_147_483_647;
+    await page.waitForTimeout(state % 700);
+    await killWorker(page);
+    await expect(page.locator("#message")).toContainText(/out of memory/i, { timeout: PATIENCE });
+    await until(page, ({ running, busy, frames }) => !running && busy === null && frames !== null);
+    expect(await read(page, (state) => state.shapes)).toEqual(shapes);
+    expect(await read(page, (state) => state.source)).toEqual(source);
+    await expect(page.getByLabel("Preset")).toHaveValue("paper");
+  }
+  await runPasses(page, 3);
+  expect(await read(page, (state) => state.report!.iterations)).toBeGreaterThan(0);
+});
+
+test("the built page runs from any folder of a server", async ({ page }) => {
+  await page.route("**/some/folder/**", async (route) => {
+    const url = route.request().url().replace("/some/folder/", "/");
+    await route.fulfill({ response: await route.fetch({ url }) });
+  });
+  const elsewhere: string[] = [];
+  page.on("request", (request) => {
+    const { protocol, pathname } = new URL(request.url());
+    if (/^http/.test(protocol) && !pathname.startsWith("/some/folder/")) elsewhere.push(pathname);
+  });
+  await page.goto("./some/folder/");
+  await ready(page);
+  await runPasses(page, 2);
+  await chooseView(page, "Relief");
+  await expect(page.locator("#relief canvas")).toBeVisible({ timeout: PATIENCE });
+  expect(elsewhere).toEqual([]);
 });

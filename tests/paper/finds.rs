@@ -185,7 +185,7 @@ fn mean_inverse_depth_is_one_in_every_region_after_a_motion_step() {
             let mean = sum / f64::from(n);
             assert!((mean - 1.0).abs() < 1e-4, "{mean} in region {k}");
         }
-        solver.step_depth();
+        solver.step_depth().unwrap();
         solver.step_curves();
     }
 }

@@ -3,14 +3,24 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use relievo::scene::{self, Sequence};
-use relievo::{Error, Shape};
+use relievo::scene::{self, Draw, Sequence};
+use relievo::{Error, MotionModel, Shape};
 
 const W: usize = 96;
 const H: usize = 72;
 
 fn all() -> impl Iterator<Item = Sequence> {
     scene::names().map(|name| scene::render(name, W, H).expect(name))
+}
+
+fn draw(base: &str, seed: u64, noise_sigma: f32, displacement: f64, size: [usize; 2]) -> Draw<'_> {
+    Draw {
+        base,
+        seed,
+        noise_sigma,
+        displacement,
+        size,
+    }
 }
 
 fn pixels(sequence: &Sequence) -> impl Iterator<Item = (usize, usize)> + use<> {
@@ -120,7 +130,7 @@ fn moving_bodies_hide_something_only_near_edges_of_depth() {
 #[test]
 fn what_is_marked_hidden_lies_outside_or_behind() {
     // A hidden pixel's target shows another surface: nearer than the point that went there.
-    let sequence = scene::variant("blocks", 3, 0.0, 8.0, 200, 150).expect("a variant");
+    let sequence = scene::variant(&draw("blocks", 3, 0.0, 8.0, [200, 150])).expect("a variant");
     let truth = &sequence.truth;
     let (mut hidden, mut explained) = (0, 0);
     for at in pixels(&sequence).filter(|&at| truth.occluded[at] == 1) {
@@ -204,14 +214,24 @@ fn any_size_within_the_limits_will_do() {
 }
 
 #[test]
+fn the_truth_tells_models() {
+    let truth = scene::render("blocks", 160, 120).unwrap().truth;
+    use MotionModel::{Still, Translation};
+    assert_eq!(truth.models(), [Still, Translation, Translation]);
+    // In other units of depth the same motion is seen.
+    let scaled = truth.scaled(&[3.0, 0.2, 7.0]);
+    assert_eq!(scaled.models(), truth.models());
+}
+
+#[test]
 fn the_same_again_is_the_same() {
     assert_eq!(
         scene::render("carousel", 40, 30),
         scene::render("carousel", 40, 30)
     );
-    let draw = |seed| scene::variant("blocks", seed, 2.0, 3.0, 40, 30).expect("a variant");
-    assert_eq!(draw(5), draw(5));
-    assert_ne!(draw(5).frames, draw(6).frames);
+    let made = |seed| scene::variant(&draw("blocks", seed, 2.0, 3.0, [40, 30])).expect("a variant");
+    assert_eq!(made(5), made(5));
+    assert_ne!(made(5).frames, made(6).frames);
 }
 
 #[test]
@@ -233,7 +253,7 @@ fn variants_keep_their_promises() {
         for seed in 0..9 {
             let displacement = [1.0, 4.0, 12.0][seed as usize % 3];
             let sequence =
-                scene::variant(base, seed, 0.0, displacement, 120, 90).expect("a variant");
+                scene::variant(&draw(base, seed, 0.0, displacement, [120, 90])).expect("a variant");
             let truth = &sequence.truth;
             let what = &sequence.name;
             assert_eq!(truth.regions(), regions);
@@ -267,7 +287,7 @@ fn variants_keep_their_promises() {
 fn what_is_filmed_in_passing_is_one_scene_whose_depth_leaps() {
     for base in ["blocks", "carousel"] {
         for seed in 0..4 {
-            let sequence = scene::passing(base, seed, 0.0, 4.0, 120, 90).expect("a scene");
+            let sequence = scene::passing(&draw(base, seed, 0.0, 4.0, [120, 90])).expect("a scene");
             let (truth, what) = (&sequence.truth, &sequence.name);
             assert_eq!(truth.regions(), 1, "{what}");
             assert!(sequence.curves.is_empty(), "{what}");
@@ -326,8 +346,8 @@ fn a_film_goes_on_as_its_sequence_began() {
 #[test]
 fn a_variant_s_film_has_its_frames_and_noise_of_its_own_in_each() {
     let size = [96, 72];
-    let sequence = scene::variant("crowd", 3, 2.0, 4.0, size[0], size[1]).expect("a variant");
-    let film = |noise| scene::variant_film("crowd", 3, noise, 4.0, size, 3).expect("a film");
+    let sequence = scene::variant(&draw("crowd", 3, 2.0, 4.0, size)).expect("a variant");
+    let film = |noise| scene::variant_film(&draw("crowd", 3, noise, 4.0, size), 3).expect("a film");
     let (noisy, clean) = (film(2.0), film(0.0));
     assert_eq!(noisy.frames[..2], sequence.frames);
     let noise = |i: usize| {
@@ -340,7 +360,8 @@ fn a_variant_s_film_has_its_frames_and_noise_of_its_own_in_each() {
 
 #[test]
 fn noise_has_the_strength_asked_for() {
-    let render = |sigma| scene::variant("carousel", 9, sigma, 2.0, 96, 72).expect("a variant");
+    let render =
+        |sigma| scene::variant(&draw("carousel", 9, sigma, 2.0, [96, 72])).expect("a variant");
     let (clean, noisy) = (render(0.0), render(6.0));
     assert_eq!(clean.truth, noisy.truth);
     for i in 0..2 {
@@ -359,7 +380,7 @@ fn what_does_not_exist_is_refused() {
         Err(Error::Choice { choices, .. }) if choices.contains("carousel")
     ));
     assert!(matches!(
-        scene::variant("head", 1, 0.0, 1.0, 64, 48),
+        scene::variant(&draw("head", 1, 0.0, 1.0, [64, 48])),
         Err(Error::Choice { .. })
     ));
     for frames in [0, 1, 101] {
@@ -370,7 +391,7 @@ fn what_does_not_exist_is_refused() {
     }
     for (noise, displacement) in [(-1.0, 1.0), (f32::NAN, 1.0), (0.0, f64::NAN), (0.0, 100.0)] {
         assert!(matches!(
-            scene::variant("blocks", 1, noise, displacement, 64, 48),
+            scene::variant(&draw("blocks", 1, noise, displacement, [64, 48])),
             Err(Error::Option { .. })
         ));
     }

@@ -5,7 +5,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use glam::DVec3;
 use relievo::MotionModel::{self, Full, Rotation, Still, Translation};
-use relievo::scene::{self, Sequence};
+use relievo::scene::{self, Draw, Sequence};
 use relievo::{Grid, Options, RigidMotion, Solver, Status};
 
 use crate::support::{
@@ -88,7 +88,14 @@ fn random_scenes_are_found() {
         ("carousel", 14, 1.0, 6.0),
         ("crowd", 15, 0.0, 4.0),
     ] {
-        let sequence = scene::variant(base, seed, noise, displacement, SIZE[0], SIZE[1]).unwrap();
+        let sequence = scene::variant(&Draw {
+            base,
+            seed,
+            noise_sigma: noise,
+            displacement,
+            size: SIZE,
+        })
+        .unwrap();
         promise(&sequence, [0.025, 0.06, 6.0, 0.7]);
     }
 }
@@ -183,6 +190,43 @@ fn nothing_is_sure_of_a_mirror_image() {
 }
 
 #[test]
+fn nothing_is_sure_of_a_mirror_image_through_a_long_lens() {
+    mirror_images(800.0);
+}
+
+/// Of small regions of random scenes, few show their relief.
+#[cfg(not(target_arch = "wasm32"))]
+#[test]
+fn nothing_is_sure_of_what_is_worse_than_flat() {
+    for seed in 31..41 {
+        let sequence = scene::variant(&Draw {
+            base: "crowd",
+            seed,
+            noise_sigma: 0.0,
+            displacement: 4.0,
+            size: SIZE,
+        })
+        .unwrap();
+        let solver = solved(&sequence);
+        let (found, scores) = (solver.interpretation(), scores(&solver, &sequence));
+        for k in 0..sequence.truth.regions() {
+            let labels = sequence.truth.labels.data().iter();
+            let own = labels
+                .zip(found.confidence.data())
+                .filter(|(l, _)| usize::from(**l) == k);
+            let (mut sure, mut all) = (0, 0);
+            own.for_each(|(_, c)| (sure, all) = (sure + usize::from(*c > 0.5), all + 1));
+            if let (Some(own), Some(flat)) = (scores.depth_error[k], scores.flat_depth_error[k]) {
+                assert!(
+                    own < flat || 2 * sure < all,
+                    "{seed}, {k}: {own}, flat {flat}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn brightness_has_no_unit() {
     let sequence = render("blocks");
     let dark = changed(sequence.clone(), |_, _, v| 0.5 * v);
@@ -238,7 +282,14 @@ fn the_order_of_the_curves_only_names_them() {
 #[cfg(not(target_arch = "wasm32"))]
 #[test]
 fn what_is_hidden_is_known_to_be() {
-    let sequence = scene::variant("blocks", 23, 0.0, 8.0, SIZE[0], SIZE[1]).unwrap();
+    let sequence = scene::variant(&Draw {
+        base: "blocks",
+        seed: 23,
+        noise_sigma: 0.0,
+        displacement: 8.0,
+        size: SIZE,
+    })
+    .unwrap();
     let solver = solved(&sequence);
     let (found, truth) = (solver.interpretation(), &sequence.truth);
     let [mut both, mut own, mut all] = [0usize; 3];

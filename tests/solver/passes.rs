@@ -97,11 +97,34 @@ fn reset_gives_the_first_run_again_and_looking_on_changes_nothing() {
     for _ in 0..6 {
         solver.step_motion();
         everything(&solver);
-        solver.step_depth();
+        let _ = solver.step_depth();
         everything(&solver);
         solver.step_curves();
     }
     assert!(everything(&solver) == first);
+}
+
+#[test]
+fn depth_alone_says_that_there_is_none_yet_and_moves_only_depth_later() {
+    let sequence = squares();
+    let mut solver = start(&sequence, &sequence.curves, best());
+    let fresh = everything(&solver);
+    let refused = solver.step_depth().unwrap_err().to_string();
+    assert!(refused.contains("no depth yet"), "{refused}");
+    assert!(everything(&solver) == fresh);
+    let mut steps = 0;
+    while solver.step() == Status::Running {
+        let before = solver.interpretation();
+        if solver.step_depth().is_ok() {
+            let after = solver.interpretation();
+            assert!(after.labels == before.labels && after.motions == before.motions);
+            steps += 1;
+        }
+    }
+    assert!(steps > 2, "{steps}");
+    // After the end as well.
+    solver.step_depth().unwrap();
+    assert_eq!(solver.status(), Status::Converged);
 }
 
 #[test]

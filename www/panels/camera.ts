@@ -2,7 +2,8 @@
 
 import { announce, byId, make } from "../dom";
 import { fixed } from "../format";
-import { ask, configure } from "../session";
+import { change } from "../memory/history";
+import { ask } from "../session";
 import { store } from "../store";
 import { focalFindingOf } from "../wording";
 
@@ -35,8 +36,7 @@ export function mountCamera(): void {
   );
 
   const set = (camera: Partial<typeof store.state.camera>) => {
-    store.update({ camera: { ...store.state.camera, ...camera }, focalFinding: null });
-    void configure();
+    change({ camera: { ...store.state.camera, ...camera }, focalFinding: null });
   };
   focal.input.addEventListener("change", () => set({ focal: asNumber(focal.input) ?? 0 }));
   const byAngle = (input: HTMLInputElement) => () => {
@@ -95,11 +95,9 @@ async function findFocal(): Promise<void> {
   if (!answer || store.state.camera !== camera) return;
   const [found = null] = answer;
   const focalFinding = focalFindingOf(found);
-  store.update({ focalFinding });
   announce(focalFinding);
-  if (!found) return;
-  store.update({ camera: { ...camera, focal: Math.round(found.focal) } });
-  await configure();
+  if (found) change({ camera: { ...camera, focal: Math.round(found.focal) }, focalFinding });
+  else store.update({ focalFinding });
 }
 
 const GUESSED =

@@ -18,7 +18,7 @@ let plot: uPlot | null = null;
 export function mountEnergy(): void {
   byId("energy-log").addEventListener("change", rebuild);
   store.watch(
-    ({ report, started }) => [report, started],
+    ({ report, started, running }) => [report, started, running],
     (state) => {
       const shown = state.started && (state.report?.history.length ?? 0) > 0;
       byId("energy-panel").hidden = !shown;
@@ -124,12 +124,15 @@ function markBreaks(chart: uPlot): void {
   ctx.restore();
 }
 
-function inWords({ report }: Readonly<State>): string {
+function inWords({ report, running }: Readonly<State>): string {
   if (!report) return "";
   const { data, smoothness, length, total } = report.energy;
   const part = (value: number) => percent(value / (total || 1), 0);
   const left = `Of what is left, ${part(data)} is misfit of the frames, ${part(smoothness)} depth's roughness, ${part(length)} length of curves.`;
   // What the passes came to, as the line shows it: curves moved since have an energy of their own.
+  if (!running && report.status === "running" && report.breaks.includes(report.history.length)) {
+    return "From the next pass on energy is another sum: curves or weights are new, or a finer scale begins.";
+  }
   const since = breaks(report).at(-1) ?? 0;
   const [first = number(total), ...later] = report.history.slice(since).map((e) => number(e));
   const fall = later.length > 0 ? `from ${first} to ${later.at(-1)}` : `${first} after one pass`;

@@ -7,7 +7,7 @@
 
 import { byId, make } from "../dom";
 import { number } from "../format";
-import { configure } from "../session";
+import { change as record } from "../memory/history";
 import { store, type State } from "../store";
 import type { OptionEntry, OptionValues, PresetEntry } from "../worker/protocol";
 import { fromSlider, STEPS, toSlider } from "./slider";
@@ -24,8 +24,7 @@ export function mountOptions(): void {
 }
 
 function change(options: OptionValues): void {
-  store.update({ options });
-  void configure();
+  record({ options });
 }
 
 function set(key: OptionEntry["key"], value: Value): void {

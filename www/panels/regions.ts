@@ -16,7 +16,7 @@ export function mountRegions(): void {
     store.update({ view: "curves", tool: "select" });
     addAtCentre();
   });
-  store.watch(({ shapes, catalogues, frames }) => [shapes.length, catalogues, frames], build);
+  store.watch(({ shapes, catalogues, width }) => [shapes.length, catalogues, width], build);
   store.watch(
     ({ shapes, selected, report, started, catalogues, frames }) => [
       shapes,
@@ -32,8 +32,9 @@ export function mountRegions(): void {
 
 let rows: HTMLElement[] = [];
 
-function build({ shapes, catalogues, frames }: Readonly<State>): void {
-  const regions = frames ? shapes.length + 1 : 0;
+function build({ shapes, catalogues, width }: Readonly<State>): void {
+  // A recording is there before its frames.
+  const regions = width > 0 ? shapes.length + 1 : 0;
   rows = Array.from({ length: regions }, (_, label) =>
     row(label, catalogues?.colours[label] ?? "grey"),
   );

@@ -3,7 +3,8 @@
 import { byId, icon, make } from "../dom";
 import { number, seconds } from "../format";
 import { PACES, paceOf } from "../pace";
-import { cancel, keepPace, pause, reset, run, step } from "../session";
+import { giveUp, startOver } from "../memory/history";
+import { keepPace, pause, run, step } from "../session";
 import { store, type State } from "../store";
 import { expectation } from "../wording";
 import type { Part, Status } from "../worker/protocol";
@@ -14,8 +15,8 @@ export function mountTransport(): void {
   const main = byId<HTMLButtonElement>("run");
   main.addEventListener("click", () => void (store.state.running ? pause() : run()));
   byId("step").addEventListener("click", () => void step("all"));
-  byId("reset").addEventListener("click", () => void reset());
-  byId("cancel").addEventListener("click", () => void cancel());
+  byId("reset").addEventListener("click", () => void startOver());
+  byId("cancel").addEventListener("click", () => void giveUp());
   for (const button of parts()) {
     button.addEventListener("click", () => void step(button.dataset["part"] as Part));
   }
@@ -32,14 +33,15 @@ export function mountTransport(): void {
   );
 
   store.watch(
-    ({ running, busy, frames, started, report }) => [
+    ({ running, busy, frames, started, report, playing }) => [
+      playing,
       running,
       busy,
       frames,
       started,
       report?.status,
     ],
-    ({ running, busy, frames, started, report }) => {
+    ({ running, busy, frames, started, report, playing }) => {
       const over = started && report !== null && report.status !== "running";
       const name = running ? "Pause" : over ? "Run again" : "Run";
       main.replaceChildren(icon(running ? "pause" : "run"), name);
@@ -53,28 +55,31 @@ export function mountTransport(): void {
       for (const button of parts()) button.disabled = !takesSteps;
       // A button that is disabled or hidden cannot hold the keyboard's place.
       if (held?.closest(".transport") && held.matches(":disabled, [hidden]")) main.focus();
-      byId("cancel").hidden = !running && busy === null;
+      // A recording that plays while the core loads is nothing to wait for.
+      byId("cancel").hidden = !running && (busy === null || playing);
       document.body.dataset["running"] = String(running);
     },
   );
   store.watch(
-    ({ report, running, started, busy }) => [report, running, started, busy],
+    ({ report, running, started, busy, playing }) => [report, running, started, busy, playing],
     (state) => {
       byId("status").textContent = standing(state);
-      const expected = state.started && !state.busy ? state.report?.expected : null;
+      const expected =
+        state.started && !state.busy && !state.running ? state.report?.expected : null;
       byId("expected").textContent = expected ? expectation(expected) : "";
     },
   );
 }
 
 /** One line: how far, how it ended, how much energy is left, how long it took. */
-export function standing({ report, running, started, busy, frames }: Readonly<State>): string {
-  if (busy) return `${busy}…`;
-  if (!frames) return "";
+export function standing(state: Readonly<State>): string {
+  const { report, running, started, busy, frames, playing } = state;
+  if (busy && !playing) return `${busy}…`;
+  if (!frames && !playing) return "";
   if (!report || !started) return "Ready";
   const { iterations, level, levels, status, energy } = report;
   const parts = [
-    running ? "Running" : ENDED[status],
+    playing ? "Recorded" : running ? "Running" : ENDED[status],
     iterations === 1 ? "1 pass" : `${iterations} passes`,
   ];
   if (levels > 1) parts.push(`scale ${levels - level}/${levels}`);

@@ -1,8 +1,9 @@
 /** Which view, what it lets one choose, which tool, which of the two frames. */
 
-import { find, redo, remove, undo } from "../curves";
+import { find, remove } from "../curves";
 import { byId, make } from "../dom";
 import { number } from "../format";
+import { redo, undo } from "../memory/history";
 import { look } from "../session";
 import { store, type Showing, type State, type Tool, type ViewParams } from "../store";
 import { available, viewOf, type Setting } from "../views";

@@ -7,8 +7,9 @@
  * gives up. Everywhere: Ctrl Z and Ctrl Shift Z undo and redo.
  */
 
-import { moved, redo, remove, replace, resized, select, undo } from "../curves";
+import { moved, remove, replace, resized, select } from "../curves";
 import { byId } from "../dom";
+import { redo, undo } from "../memory/history";
 import { store } from "../store";
 import type { Point } from "../worker/protocol";
 import { holding } from "./grip";

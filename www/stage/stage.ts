@@ -84,16 +84,17 @@ function paintPictures(context: CanvasRenderingContext2D, size: Box): void {
   // Till what was chosen is there, the last picture stays, and `wait` dims it.
   if (awaited(state)) return;
   context.clearRect(0, 0, size.width, size.height);
-  if (!state.frames || frame.width === 0 || view.id === "relief") return;
+  if (frame.width === 0 || view.id === "relief") return;
   const captioned = captionsOf(state).length > 0;
   const layout = panes(size, frame, Math.max(1, wanted), captioned ? CAPTION_HEIGHT : 0);
   setPanes(layout);
   placeCaptions(layout);
   context.imageSmoothingQuality = "medium";
-  const shown = state.frames[flickerSecond ? 1 : 0];
+  const shown = state.frames?.[flickerSecond ? 1 : 0];
   for (const [i, pane] of layout.entries()) {
     const picture = wanted === 0 ? shown : state.pictures[i];
-    if (!picture) continue;
+    // A picture that has been replaced is empty.
+    if (!picture?.width) continue;
     context.imageSmoothingEnabled = !view.crisp;
     context.drawImage(
       picture,

@@ -30,12 +30,12 @@ export class Client {
   private ended: Promise<never> = new Promise(() => {});
   private turn: Promise<unknown> = Promise.resolve();
 
-  constructor(private readonly listener: Listener) {
-    this.start();
-  }
+  constructor(private readonly listener: Listener) {}
 
   /** One call; rejects with a sentence, or with `Ended` when the worker was replaced meanwhile. */
   async call<T>(use: (service: Remote) => Promise<T>): Promise<T> {
+    // The first call starts the first worker: until then the network is free for what is seen first.
+    if (!this.service) this.start();
     return Promise.race([use(this.service!), this.ended]);
   }
 
@@ -57,6 +57,15 @@ export class Client {
     this.start();
   }
 
+  /** Ends the worker; the next call starts another. */
+  end(): void {
+    this.worker?.terminate();
+    this.abandon(new Ended());
+    this.turn = Promise.resolve();
+    this.worker = null;
+    this.service = null;
+  }
+
   private start(): void {
     const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
     this.ended = new Promise((_, reject) => {
@@ -67,6 +76,8 @@ export class Client {
       event.preventDefault();
       const message = event.message || "the worker could not be started";
       this.abandon(Object.assign(new Error(message), { name: "Panic" }));
+      // While it runs by itself there is no call that could hear of it.
+      if (this.worker === worker) this.listener.failure({ message, panic: true });
     });
     this.worker = worker;
     this.service = Comlink.wrap<Service>(worker);

@@ -1,6 +1,7 @@
 /** The core, loaded once, with what it offers read from its own lists. */
 
-import init, {
+import init from "../../cli/web.js";
+import {
   limits,
   optionCatalogue,
   presetCatalogue,
@@ -15,6 +16,7 @@ export {
   findFocal,
   Frame,
   hornSchunck,
+  Kept,
   panicMessage,
   Scene,
   Solver,

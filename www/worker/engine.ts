@@ -10,6 +10,7 @@ import {
   findFocal,
   Frame,
   hornSchunck,
+  Kept,
   Scene,
   Solver,
   type Baseline,
@@ -19,6 +20,7 @@ import type {
   Camera,
   Contour,
   FocalLength,
+  Found,
   MeshData,
   Opened,
   Part,
@@ -32,9 +34,13 @@ import type {
   Status,
   Whose,
 } from "./protocol";
+import { squeeze, unsqueeze } from "./keeping";
 
 /** Longest side of a frame sent to the page; more than a screen shows only costs memory. */
 const LONGEST_SIDE = 2048;
+
+/** Frames with more pixels are not copied while a solver is at work on them. */
+const MOST_PIXELS = 4e6;
 
 interface Owned {
   first: Frame;
@@ -48,13 +54,17 @@ export class Engine {
   private owned: Owned | null = null;
   private solver: Solver | null = null;
   private setup: Setup | null = null;
-  /** Whether the solver has been at work since it was made or reset. */
+  /** What was put away and is shown, until the solver gets to work. */
+  private restored: { kept: Kept; found: Found } | null = null;
+  /** Whether there is a result: the solver has been at work since it was made or reset, or one was restored. */
   started = false;
+  /** Another number wherever what is found may be another. */
+  revision = 0;
 
-  async open(source: Source, keep: Setup | null): Promise<Opened> {
+  async open(source: Source, keep: Partial<Setup>, found: Found | null): Promise<Opened> {
     const owned = take(source);
     try {
-      const setup = keep ?? ownSetup(owned);
+      const setup = { ...ownSetup(owned), ...keep };
       const solver = build(owned, setup);
       const frames: [ImageBitmap, ImageBitmap] = [
         await bitmap(owned.first),
@@ -64,7 +74,9 @@ export class Engine {
       this.owned = owned;
       this.solver = solver;
       this.setup = setup;
-      this.started = false;
+      this.begin();
+      // Frames and settings are good without.
+      if (found) await this.restore(setup, found).catch(() => {});
       const { scene } = owned;
       return {
         title: scene?.title ?? "Your own frames",
@@ -74,6 +86,7 @@ export class Engine {
         frames,
         names: source.kind === "files" ? [source.first.name, source.second.name] : ["", ""],
         setup,
+        restored: this.restored !== null,
         truth: scene !== null,
       };
     } catch (error) {
@@ -94,11 +107,12 @@ export class Engine {
       solver.free();
       this.solver = replacement;
       this.setup = setup;
-      this.started = false;
+      this.begin();
       return true;
     }
     const options = differs("options");
     if (options) {
+      this.forget();
       const passes = this.report().iterations;
       solver.setOptions(JSON.stringify(setup.options));
       // With another way of solving all starts anew.
@@ -107,9 +121,13 @@ export class Engine {
     }
     const shapes = differs("shapes");
     if (shapes) {
+      const over = this.atEnd();
       solver.setCurves(JSON.stringify(setup.shapes));
       this.setup = setup;
+      // A result is one of the curves that it was found from.
+      if (over) this.reset();
     }
+    if (options || shapes) this.revision += 1;
     return options || shapes;
   }
 
@@ -127,7 +145,9 @@ export class Engine {
 
   step(part: Part): Status {
     const { solver } = this.present();
+    this.forget();
     this.started = true;
+    this.revision += 1;
     switch (part) {
       case "all":
         return solver.step();
@@ -141,19 +161,75 @@ export class Engine {
         solver.stepCurves();
         break;
     }
-    return this.report().status;
+    return solver.status;
   }
 
   reset(): void {
     this.present().solver.reset();
+    this.begin();
+  }
+
+  /** Whether the next step would be of a new solve. */
+  atEnd(): boolean {
+    return this.restored !== null || this.present().solver.status !== "running";
+  }
+
+  async keep(): Promise<Found | null> {
+    const { solver } = this.present();
+    if (!this.started) return null;
+    if (this.restored) return this.restored.found;
+    const [report, contours] = [this.report(), this.contours()];
+    return {
+      bytes: await squeeze(solver.keep(false) as Uint8Array<ArrayBuffer>),
+      report,
+      contours,
+    };
+  }
+
+  /** What is found so far, for others to draw; `null` for frames so large that a copy would cost too much. */
+  snapshot(): Uint8Array<ArrayBuffer> | null {
+    const { owned, solver } = this.present();
+    if (owned.first.width * owned.first.height > MOST_PIXELS) return null;
+    return solver.keep(false) as Uint8Array<ArrayBuffer>;
+  }
+
+  async restore(setup: Setup, found: Found): Promise<void> {
+    const { bytes, report, contours } = found;
+    const plain = await unsqueeze(bytes);
+    const { first, second } = this.present().owned;
+    const kept = new Kept(first, second, plain, contours, report);
+    try {
+      this.configure(setup);
+    } catch (error) {
+      kept.free();
+      throw error;
+    }
+    this.reset();
+    this.restored = { kept, found };
+    this.started = true;
+  }
+
+  /** Nothing has been found yet. */
+  private begin(): void {
+    this.forget();
+    this.started = false;
+    this.revision += 1;
+  }
+
+  private forget(): void {
+    if (!this.restored) return;
+    this.restored.kept.free();
+    this.restored = null;
     this.started = false;
   }
 
   report(): Report {
+    if (this.restored) return this.restored.found.report;
     return JSON.parse(this.present().solver.report()) as Report;
   }
 
   contours(): Contour[] {
+    if (this.restored) return this.restored.found.contours;
     return JSON.parse(this.present().solver.contours()) as Contour[];
   }
 
@@ -170,7 +246,7 @@ export class Engine {
     const { owned, solver } = this.present();
     switch (of) {
       case "found":
-        return solver;
+        return this.restored?.kept ?? solver;
       case "truth":
         if (!owned.scene) throw new Error("the truth of these frames is not known");
         return owned.scene;
@@ -181,7 +257,8 @@ export class Engine {
   }
 
   mesh(params: Record<string, unknown>): MeshData {
-    const mesh = this.present().solver.mesh(JSON.stringify(params));
+    const { solver } = this.present();
+    const mesh = (this.restored?.kept ?? solver).mesh(JSON.stringify(params));
     try {
       const { positions, normals, uvs, indices } = mesh;
       return { positions, normals, uvs, indices };
@@ -194,11 +271,12 @@ export class Engine {
   scores(): ScoreTable | null {
     const { owned, solver } = this.present();
     if (!owned.scene) return null;
-    return JSON.parse(solver.scores(owned.scene)) as ScoreTable;
+    return JSON.parse((this.restored?.kept ?? solver).scores(owned.scene)) as ScoreTable;
   }
 
   files(params: Record<string, unknown>): ResultFile[] {
-    return this.present().solver.files(JSON.stringify(params));
+    const { solver } = this.present();
+    return (this.restored?.kept ?? solver).files(JSON.stringify(params));
   }
 
   private present(): { owned: Owned; solver: Solver; setup: Setup } {
@@ -210,6 +288,7 @@ export class Engine {
   }
 
   private letGo(): void {
+    this.forget();
     this.solver?.free();
     if (this.owned) free(this.owned);
     this.solver = null;

@@ -54,6 +54,14 @@ export interface Setup {
   options: OptionValues;
 }
 
+/** What was found, put away: enough to show it again without the solver that found it. */
+export interface Found {
+  /** The core's own, as a rule compressed (`keeping.ts`). */
+  bytes: Uint8Array<ArrayBuffer>;
+  report: Report;
+  contours: Contour[];
+}
+
 /** A file as it came from disk, drop or clipboard. */
 export interface FrameFile {
   name: string;
@@ -75,6 +83,8 @@ export interface Opened {
   frames: [ImageBitmap, ImageBitmap];
   names: [string, string];
   setup: Setup;
+  /** Whether a result that came with it is shown. */
+  restored: boolean;
   /** Whether labels, depth and motion are known, so that scores can be given. */
   truth: boolean;
 }
@@ -118,12 +128,16 @@ export interface Progress {
   running: boolean;
   /** Whether the solver has been at work since it was made or reset. */
   started: boolean;
+  /** Another number wherever what is found may be another. */
+  revision: number;
   report: Report;
   contours: Contour[];
   /** One per requested picture; `null` where the last one sent is still right. */
   pictures: (ImageBitmap | null)[];
   mesh: MeshData | null;
   scores: ScoreTable | null;
+  /** What is found so far, not compressed, where passes take so long that a view should not wait for the next. */
+  found: Uint8Array<ArrayBuffer> | null;
 }
 
 /** Something went wrong while nobody was waiting for an answer. */
@@ -163,8 +177,12 @@ export interface Service {
   ): Promise<void>;
   /** Decodes one file; throws a sentence when it is no image. */
   preview(file: FrameFile): Promise<{ width: number; height: number; picture: ImageBitmap }>;
-  /** Opens a pair; on any error the one open before stays. `keep` overrides the source's own setup. */
-  open(source: Source, keep: Setup | null): Promise<Opened>;
+  /** Opens a pair; on any error the one open before stays. `keep` overrides the source's own setup, as far as it goes; `found` is shown with it. */
+  open(source: Source, keep: Partial<Setup>, found: Found | null): Promise<Opened>;
+  /** What has been found, to be put away; `null` when nothing has. */
+  keep(): Promise<Found | null>;
+  /** Shows what was put away. The solver is set up likewise, and starts afresh when it is told to work. */
+  restore(setup: Setup, found: Found, wanted: Wanted): Promise<void>;
   /** Curves to start from; none where one motion explains both frames. The solver stays as it is. */
   find(camera: Camera): Promise<Shape[]>;
   /** The focal length, where the frames tell that it is not `camera`'s. The solver stays as it is. */

@@ -11,6 +11,8 @@ import { catalogues, load, panicMessage } from "./core";
 import { Engine, preview } from "./engine";
 import type { Failure, PictureRequest, Progress, Service, Setup, Wanted } from "./protocol";
 
+/** A pass that takes longer keeps those waiting who look at something else meanwhile, milliseconds. */
+const LONG_MS = 150;
 /** Least time between two reliefs: a new triangulation is work for the page. */
 const MESH_INTERVAL_MS = 400;
 
@@ -18,6 +20,8 @@ const engine = new Engine();
 const ready = load();
 
 let running = false;
+/** How long the last pass took, milliseconds. */
+let took = 0;
 /** Least time of a pass, milliseconds. */
 let pace = 0;
 let looping = false;
@@ -86,6 +90,7 @@ async function loop(): Promise<void> {
     while (running) {
       const start = performance.now();
       if (engine.step("all") !== "running") running = false;
+      took = performance.now() - start;
       publish();
       await rest(running ? start + pace - performance.now() : 0);
     }
@@ -144,6 +149,8 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
     transfer.push(positions.buffer, normals.buffer, uvs.buffer, indices.buffer);
     to.mesh = { iterations: report.iterations, at: performance.now() };
   }
+  const found = running && took > LONG_MS ? engine.snapshot() : null;
+  if (found) transfer.push(found.buffer);
   const scores = engine.scores();
   const pictures: (ImageBitmap | null)[] = [];
   for (const request of wanted.pictures) {
@@ -158,11 +165,13 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
       view: wanted.view,
       running,
       started: running || engine.started,
+      revision: engine.revision,
       report,
       contours,
       pictures,
       mesh,
       scores,
+      found,
     },
     transfer,
   };
@@ -207,11 +216,21 @@ const service: Service = {
       return Comlink.transfer(seen, [seen.picture]);
     }),
 
-  open: (source, keep) =>
+  open: (source, keep, found) =>
     guard(async () => {
-      const opened = await engine.open(source, keep);
+      const opened = await engine.open(source, keep, found);
       stop();
       return Comlink.transfer(opened, opened.frames);
+    }),
+
+  keep: () => guard(() => engine.keep()),
+
+  restore: (setup, found, wanted) =>
+    guard(async () => {
+      stop();
+      await engine.restore(setup, found);
+      look = looked(wanted);
+      publish();
     }),
 
   find: (camera) => guard(() => engine.find(camera)),
@@ -233,7 +252,7 @@ const service: Service = {
   run: (setup, wanted, least) =>
     obey(setup, wanted, () => {
       pace = least;
-      if (engine.report().status !== "running") engine.reset();
+      if (engine.atEnd()) engine.reset();
       running = true;
       void loop();
     }),

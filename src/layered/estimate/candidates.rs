@@ -10,14 +10,14 @@ use glam::DVec3;
 use super::super::scale::Scale;
 use super::normal_equations::Support;
 use super::planar::PlanarFlow;
-use super::step::turn;
+use super::state::turn;
 use crate::linalg::{hemisphere, solve};
 use glam::DMat3;
 
 /// Directions that are tried.
 const DIRECTIONS: usize = 240;
-/// Cosine of the least angle between two candidates.
-const APART: f64 = 0.9;
+/// Cosine of the angle from which a direction of T is another.
+pub(crate) const OTHER_DIRECTION: f64 = 0.9;
 /// Blocks of large and of small regions, pixels; a region is small below `SMALL` pixels.
 const BLOCK: [usize; 2] = [8, 6];
 const SMALL: usize = 6000;
@@ -68,7 +68,7 @@ impl Blocks {
         for candidate in tried {
             let direction = candidate.translation.normalize_or_zero();
             let far = |other: &Candidate| {
-                other.translation.normalize_or_zero().dot(direction).abs() < APART
+                other.translation.normalize_or_zero().dot(direction).abs() < OTHER_DIRECTION
             };
             if found.len() < most && found.iter().all(far) {
                 found.push(candidate);
@@ -156,7 +156,7 @@ fn along(m: &Moments, t: [f32; 3]) -> (f32, [f32; 4]) {
 }
 
 /// Where an entry of the 7×7 matrix is kept.
-const fn at(i: usize, j: usize) -> usize {
+fn at(i: usize, j: usize) -> usize {
     let (i, j) = if i <= j { (i, j) } else { (j, i) };
     i * 7 + j - i * (i + 1) / 2
 }

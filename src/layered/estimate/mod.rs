@@ -1,13 +1,18 @@
 //! Stage 1 of a scale: motion and relief of every region, on statistics of its pixels.
 
 mod candidates;
+mod curvature;
 mod normal_equations;
 mod planar;
+mod rows;
+mod state;
 mod step;
 mod surface;
 
-pub(crate) use candidates::Blocks;
-pub(crate) use normal_equations::{CUT, NormalEquations, Support};
+pub(crate) use candidates::{Blocks, OTHER_DIRECTION};
+pub(crate) use curvature::{Prior, surface_energy};
+pub(crate) use normal_equations::{NormalEquations, Support, saturation};
 pub(crate) use planar::{Degree, PlanarFlow};
-pub(crate) use step::{Estimator, Free, Outcome, Prior, State, surface_energy, turn};
+pub(crate) use state::{State, turn};
+pub(crate) use step::{Estimator, Free, Outcome};
 pub(crate) use surface::Surface;

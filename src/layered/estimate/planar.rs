@@ -10,6 +10,7 @@
 use super::super::scale::Scale;
 use super::normal_equations::Support;
 use crate::linalg::solve;
+use crate::spread::spread;
 
 /// Largest shift that is tried, as a share of the frame's sides.
 const REACH: f32 = 0.15;
@@ -82,7 +83,7 @@ impl PlanarFlow {
                     for x in (window.left..window.left + window.width).step_by(stride) {
                         let to_x = x as isize + dx;
                         if labels[x] == support.label && to_x >= 0 && to_x < scale.width as isize {
-                            let value = scale.pixel(to_x as usize, to_y as usize);
+                            let value = scale.second.pixel(to_x as usize, to_y as usize);
                             sum += (value - first[x]).abs().min(SATURATION);
                             count += 1;
                         }
@@ -103,13 +104,13 @@ impl PlanarFlow {
     /// Fits it to the region's pixels at `scale`, in `steps` steps.
     pub fn fit(&mut self, scale: &Scale, support: &Support, degree: Degree, steps: usize) {
         let mut sigma = 20.0;
-        let mut sizes: Vec<f32> = Vec::new();
+        let mut residuals: Vec<f32> = Vec::new();
         for _ in 0..steps {
             let mut sums = [[0.0f32; 9]; 9];
-            sizes.clear();
+            residuals.clear();
             let cut = 1.0 / (2.5f32 * sigma).powi(2);
             self.for_each(scale, support, |x, y, [e, gx, gy]| {
-                sizes.push(e.abs());
+                residuals.push(e);
                 let weight = 1.0 / (1.0 + e * e * cut);
                 let along = gx * x + gy * y;
                 let row = [
@@ -130,12 +131,10 @@ impl PlanarFlow {
                     }
                 }
             });
-            if sizes.len() < 20 {
+            if residuals.len() < 20 {
                 return;
             }
-            let middle = sizes.len() / 2;
-            let median = *sizes.select_nth_unstable_by(middle, f32::total_cmp).1;
-            sigma = (1.4826 * median).max(1.0);
+            sigma = (spread(&mut residuals) as f32).max(1.0);
             self.sigma = sigma;
             let free = degree.free();
             let mut a = [[0.0; 8]; 8];
@@ -184,7 +183,7 @@ impl PlanarFlow {
                 let (u, v) = self.at(x, y);
                 let (to_x, to_y) = (px as f32 + u * focal, py as f32 + v * focal);
                 if scale.contains(to_x, to_y) {
-                    let [value, gx, gy] = scale.read(to_x, to_y);
+                    let [value, gx, gy] = scale.second.with_gradient(to_x, to_y);
                     let half = 0.5 * focal;
                     let e = value - first[px];
                     each(x, y, [e, half * (gx + across[px]), half * (gy + down[px])]);

@@ -13,29 +13,17 @@
 //!
 //! A step that raises E is taken back, and ends the iteration.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::DVec3;
 
 use super::super::models::Problem;
-use super::normal_equations::{NormalEquations, Pose};
+use super::curvature::{Prior, curvature_weight, for_each_curvature, pull, surface_energy};
+use super::normal_equations::NormalEquations;
+use super::state::{State, turn};
 use super::surface::{RHO, Surface};
-use crate::camera::RigidMotion;
 use crate::linalg::{Banded, solve};
-use crate::options::Diffusion;
 
-/// Pull of ρ towards 1 where nothing is seen, in variances of the residual for a pixel.
-const PULL: f32 = 1e-4;
-/// Pull of δT towards 0, in variances of the residual: a region may show nothing of it.
-const DAMPING: f64 = 1.0;
 /// Longest δT in a step, as a share of |T|.
 const LONGEST: f64 = 0.5;
-
-/// What is estimated of a region.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct State {
-    pub translation: DVec3,
-    pub rotation: DMat3,
-    pub surface: Surface,
-}
 
 /// What may change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,16 +36,6 @@ pub(crate) enum Free {
     Rotation,
     /// T, ω and ρ.
     Full,
-}
-
-/// What is charged for curvature.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Prior {
-    /// μ, grey levels²·px².
-    pub mu: f64,
-    pub diffusion: Diffusion,
-    /// ε of g(r/ε), change of slope per control point, 1/px.
-    pub epsilon: f64,
 }
 
 /// What a step leaves.
@@ -80,55 +58,6 @@ pub(crate) struct Estimator {
     solved: Vec<[f32; 6]>,
     /// What a step started from.
     before: State,
-}
-
-impl State {
-    /// Nothing moves; a flat surface.
-    pub fn still(surface: Surface) -> Self {
-        Self {
-            translation: DVec3::ZERO,
-            rotation: DMat3::IDENTITY,
-            surface,
-        }
-    }
-
-    /// As the pixel loops want it.
-    pub fn pose(&self) -> Pose {
-        let length = self.translation.length();
-        let (b, c) = if length > 0.0 {
-            let (b, c) = (self.translation / length).any_orthonormal_pair();
-            (b * length, c * length)
-        } else {
-            (DVec3::ZERO, DVec3::ZERO)
-        };
-        Pose {
-            rotation: self
-                .rotation
-                .transpose()
-                .to_cols_array_2d()
-                .map(|row| row.map(|v| v as f32)),
-            translation: self.translation.to_array().map(|v| v as f32),
-            tangent: [b, c].map(|v| v.to_array().map(|v| v as f32)),
-        }
-    }
-
-    /// T and ω.
-    pub fn motion(&self) -> RigidMotion {
-        RigidMotion {
-            translation: self.translation,
-            rotation: self.omega(),
-        }
-    }
-
-    /// ω, radians per frame.
-    pub fn omega(&self) -> DVec3 {
-        DQuat::from_mat3(&self.rotation).to_scaled_axis()
-    }
-}
-
-/// The matrix that turns by ω.
-pub(crate) fn turn(omega: DVec3) -> DMat3 {
-    DMat3::from_quat(DQuat::from_scaled_axis(omega))
 }
 
 impl Estimator {
@@ -215,7 +144,7 @@ impl Estimator {
         self.cross.resize(nodes, [0.0; 6]);
         let rows = surface.rows - 1;
         for (n, cell) in equations.cells.iter().enumerate() {
-            let corners = corners(surface, n / rows, n % rows);
+            let corners = surface.corners(n / rows, n % rows);
             for p in 0..4 {
                 for q in 0..=p {
                     let pair = 3 * ((p >> 1) + (q >> 1)) + (p & 1) + (q & 1);
@@ -228,12 +157,7 @@ impl Estimator {
         }
         let band = &mut self.band;
         let cross = &mut self.cross;
-        for_each_curvature(surface, |nodes, factors, share| {
-            let d: f32 = nodes
-                .iter()
-                .zip(factors)
-                .map(|(&n, f)| f * surface.rho[n])
-                .sum();
+        for_each_curvature(surface, |nodes, factors, share, d| {
             let weight = share * curvature_weight(d, surface.spacing, prior);
             for (p, &node) in nodes.iter().enumerate() {
                 for (q, &other) in nodes[..=p].iter().enumerate() {
@@ -257,9 +181,8 @@ impl Estimator {
         delta: [f64; 5],
         moves_depth: bool,
     ) {
-        let pose = state.pose();
-        let tangent = pose.tangent.map(|b| DVec3::from_array(b.map(f64::from)));
-        let shift = tangent[0] * delta[0] + tangent[1] * delta[1];
+        let [first, second] = state.tangent();
+        let shift = first * delta[0] + second * delta[1];
         if !moves_depth {
             state.rotation = turn(DVec3::new(delta[2], delta[3], delta[4])) * state.rotation;
             return;
@@ -297,7 +220,7 @@ impl NormalEquations {
         let (mut sum, mut count) = (0.0, 0.0);
         for (n, cell) in self.cells.iter().enumerate() {
             if cell.square[0] + cell.square[4] + cell.square[8] > 0.0 {
-                let corners = corners(surface, n / rows, n % rows);
+                let corners = surface.corners(n / rows, n % rows);
                 sum += corners.map(&value).iter().sum::<f32>();
                 count += 4.0;
             }
@@ -311,16 +234,6 @@ impl NormalEquations {
         let square = self.mean(surface, |n| (surface.rho[n] - mean).powi(2));
         f64::from(square / (mean * mean).max(1e-6))
     }
-}
-
-/// The control points at the corners of a cell, by column, then row.
-fn corners(surface: &Surface, column: usize, row: usize) -> [usize; 4] {
-    [
-        surface.node(column, row),
-        surface.node(column, row + 1),
-        surface.node(column + 1, row),
-        surface.node(column + 1, row + 1),
-    ]
 }
 
 /// Solves for the motions that are free; nothing where the data leave them open.
@@ -346,7 +259,8 @@ fn motion_step(
         for j in (0..5).filter(|&j| is_free(j)) {
             a[i][j] = reduced[i][j];
         }
-        a[i][i] += 1e-6 * full[i][i] + 1e-9 + if i < 2 { DAMPING * variance } else { 0.0 };
+        // A region may show nothing of δT.
+        a[i][i] += 1e-6 * full[i][i] + 1e-9 + if i < 2 { variance } else { 0.0 };
         b[i] = -reduced[i][5];
     }
     let step = solve(&a, &b).unwrap_or_default();
@@ -362,226 +276,5 @@ fn outcome_of(equations: &NormalEquations, state: &State, prior: &Prior, sigma: 
     }
 }
 
-fn pull(surface: &Surface, variance: f32) -> f32 {
-    PULL * variance * (surface.spacing * surface.spacing) as f32
-}
-
-/// What curvature and distance from 1 cost, grey levels².
-pub(crate) fn surface_energy(surface: &Surface, prior: &Prior, sigma: f32) -> f64 {
-    let s = surface.spacing as f32;
-    let edge = prior.epsilon as f32 * s;
-    let mut sum = 0.0;
-    for_each_curvature(surface, |nodes, factors, share| {
-        let d: f32 = nodes
-            .iter()
-            .zip(factors)
-            .map(|(&n, f)| f * surface.rho[n])
-            .sum();
-        let square = match prior.diffusion {
-            Diffusion::Isotropic => d * d,
-            Diffusion::Anisotropic => 2.0 * edge * edge * ((1.0 + (d / edge).powi(2)).sqrt() - 1.0),
-        };
-        sum += f64::from(share * square);
-    });
-    let pull = pull(surface, sigma * sigma);
-    let away: f32 = surface.rho.iter().map(|rho| (rho - 1.0).powi(2)).sum();
-    prior.mu / f64::from(s * s) * sum + f64::from(pull * away)
-}
-
-/// Half the derivative of what a second difference costs, over it.
-fn curvature_weight(d: f32, spacing: usize, prior: &Prior) -> f32 {
-    let s = spacing as f32;
-    let mu = prior.mu as f32 / (s * s);
-    match prior.diffusion {
-        Diffusion::Isotropic => mu,
-        Diffusion::Anisotropic => mu / (1.0 + (d / (prior.epsilon as f32 * s)).powi(2)).sqrt(),
-    }
-}
-
-/// Calls with the control points, factors and share of each second difference: ρ_xx, ρ_yy and, twice, ρ_xy.
-fn for_each_curvature(surface: &Surface, mut each: impl FnMut(&[usize], &[f32], f32)) {
-    let node = |i, j| surface.node(i, j);
-    for i in 0..surface.columns {
-        for j in 0..surface.rows {
-            if i > 0 && i + 1 < surface.columns {
-                let three = [node(i - 1, j), node(i, j), node(i + 1, j)];
-                each(&three, &[1.0, -2.0, 1.0], 1.0);
-            }
-            if j > 0 && j + 1 < surface.rows {
-                let three = [node(i, j - 1), node(i, j), node(i, j + 1)];
-                each(&three, &[1.0, -2.0, 1.0], 1.0);
-            }
-            if i + 1 < surface.columns && j + 1 < surface.rows {
-                each(&corners(surface, i, j), &[1.0, -1.0, -1.0, 1.0], 2.0);
-            }
-        }
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use super::super::normal_equations::tests::Made;
-    use super::*;
-
-    const ALL: [Free; 4] = [Free::Depth, Free::Translation, Free::Rotation, Free::Full];
-
-    fn energy(made: &Made, state: &State) -> f64 {
-        let problem = made.problem(4);
-        let mut equations = NormalEquations::default();
-        equations.gather(&problem, state);
-        outcome_of(&equations, state, &problem.prior, problem.sigma).energy
-    }
-
-    #[test]
-    fn a_step_lowers_the_energy_and_moves_only_what_is_free() {
-        let made = Made::usual();
-        let start = made.off();
-        for free in ALL {
-            let (mut state, mut equations) = (start.clone(), NormalEquations::default());
-            let problem = made.problem(4);
-            let outcome =
-                Estimator::default().improve(&problem, &mut state, free, 1, &mut equations, false);
-            let [before, after] = [&start, &state].map(|s| energy(&made, s));
-            assert!(after < 0.95 * before, "{free:?}: {after} after {before}");
-            assert!((outcome.energy / after - 1.0).abs() < 1e-6);
-            let same = |a: DVec3, b: DVec3| (a.normalize() - b.normalize()).length() < 1e-6;
-            let turned = (state.omega() - start.omega()).length() > 1e-6;
-            assert_eq!(
-                turned,
-                matches!(free, Free::Rotation | Free::Full),
-                "{free:?}"
-            );
-            let headed = !same(state.translation, start.translation);
-            assert_eq!(
-                headed,
-                matches!(free, Free::Translation | Free::Full),
-                "{free:?}"
-            );
-            assert_eq!(
-                state.surface.rho == start.surface.rho,
-                free == Free::Rotation
-            );
-        }
-    }
-
-    #[test]
-    fn no_number_of_steps_raises_the_energy_and_the_truth_is_found() {
-        let made = Made::usual();
-        let mut state = made.off();
-        let problem = made.problem(4);
-        let (mut estimator, mut equations) = (Estimator::default(), NormalEquations::default());
-        let mut before = energy(&made, &state);
-        for step in 0..12 {
-            estimator.improve(
-                &problem,
-                &mut state,
-                Free::Full,
-                1,
-                &mut equations,
-                step > 0,
-            );
-            let after = energy(&made, &state);
-            assert!(
-                after <= before * (1.0 + 1e-9),
-                "step {step}: {after} after {before}"
-            );
-            before = after;
-        }
-        let truth = &made.truth;
-        let angle = state
-            .translation
-            .angle_between(truth.translation)
-            .to_degrees();
-        assert!(angle < 5.0, "T is {angle}° off");
-        let off = (state.omega() - truth.omega()).length();
-        assert!(off < 1.5e-3, "ω is {off} off");
-        // ρ has mean 1 where something is seen.
-        let mean = equations.mean(&state.surface, |n| state.surface.rho[n]);
-        assert!((mean - 1.0).abs() < 1e-3);
-    }
-
-    /// What a change of scale is, changes nothing: T twice as long and ρ half as large are the same.
-    #[test]
-    fn the_mean_of_depth_goes_to_the_translation() {
-        let made = Made::usual();
-        let problem = made.problem(4);
-        let [one, other] = [1.0f32, 0.5].map(|share| {
-            let mut state = made.truth.clone();
-            state.surface.rho.iter_mut().for_each(|rho| *rho *= share);
-            state.translation /= f64::from(share);
-            let mut equations = NormalEquations::default();
-            Estimator::default().improve(
-                &problem,
-                &mut state,
-                Free::Full,
-                3,
-                &mut equations,
-                false,
-            );
-            state
-        });
-        let ratio = one.translation.length() / other.translation.length();
-        assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
-        assert!(
-            one.translation
-                .angle_between(other.translation)
-                .to_degrees()
-                < 2.0
-        );
-    }
-
-    #[test]
-    fn a_surfaces_gradient_is_that_of_its_energy() {
-        let made = Made::usual();
-        let surface = made.off().surface;
-        let sigma = 30.0;
-        for diffusion in [Diffusion::Isotropic, Diffusion::Anisotropic] {
-            let prior = Prior {
-                mu: 5e3,
-                diffusion,
-                epsilon: 2e-3,
-            };
-            let mut estimator = Estimator::default();
-            let cells = (surface.columns - 1) * (surface.rows - 1);
-            let mut equations = NormalEquations::default();
-            equations.cells.resize(cells, Default::default());
-            estimator.assemble(&equations, &surface, &prior, sigma * sigma);
-            let largest = estimator
-                .cross
-                .iter()
-                .map(|c| c[5].abs())
-                .fold(0.0, f32::max);
-            for n in (0..surface.rho.len()).step_by(3) {
-                let at = |by: f32| {
-                    let mut moved = surface.clone();
-                    moved.rho[n] += by;
-                    surface_energy(&moved, &prior, sigma)
-                };
-                let slope = (at(2e-3) - at(-2e-3)) / (4.0 * 2e-3);
-                let own = f64::from(estimator.cross[n][5]);
-                let enough = (own - slope).abs() < 0.02 * f64::from(largest);
-                assert!(enough, "{diffusion:?}, {n}: {own}, {slope}");
-            }
-        }
-    }
-
-    #[test]
-    fn planes_cost_nothing_and_relief_is_its_variance() {
-        let made = Made::usual();
-        let mut surface = made.truth.surface.clone();
-        for i in 0..surface.columns {
-            for j in 0..surface.rows {
-                let node = surface.node(i, j);
-                surface.rho[node] = 1.0 + 0.1 * i as f32 - 0.05 * j as f32;
-            }
-        }
-        let prior = made.problem(4).prior;
-        let bent = surface_energy(&made.truth.surface, &prior, 0.0);
-        assert!(surface_energy(&surface, &prior, 0.0) < 1e-6 * bent);
-        let mut equations = NormalEquations::default();
-        equations.gather(&made.problem(0), &made.truth);
-        surface.rho.fill(1.0);
-        assert_eq!(equations.relief(&surface), 0.0);
-        assert!(equations.relief(&made.truth.surface) > 0.005);
-    }
-}
+mod tests;

@@ -5,6 +5,7 @@
 //! pixels, so that every scale sees the same surface. ρ = 1/Z in units in which the region's mean is 1; it may be 0
 //! (infinitely far) or, under a slightly wrong ω, less.
 
+use crate::grid::Grid;
 use crate::window::Window;
 
 /// Least and greatest ρ of a control point.
@@ -40,6 +41,26 @@ impl Surface {
             rows,
             rho: vec![1.0; columns * rows],
         }
+    }
+
+    /// The surface through the means of `rho`, a grid of the finest scale, around each control point.
+    pub fn through(spacing: usize, rho: &Grid<f32>) -> Self {
+        let (width, height) = (rho.width(), rho.height());
+        let mut new = Self::flat(spacing, &Window::whole(width, height));
+        let around = |at: usize, most: usize| {
+            let at = at * spacing;
+            at.saturating_sub(spacing / 2).min(most - 1)..(at + spacing / 2).min(most)
+        };
+        for i in 0..new.columns {
+            for j in 0..new.rows {
+                let rows = around(j, height);
+                let count = rows.len() * around(i, width).len();
+                let sum: f32 = rows.flat_map(|y| &rho.row(y)[around(i, width)]).sum();
+                let node = new.node(i, j);
+                new.rho[node] = sum / count as f32;
+            }
+        }
+        new
     }
 
     /// The same surface over other control points; beyond its own it goes on as at its border.
@@ -79,6 +100,11 @@ impl Surface {
         } else {
             row * self.columns + column
         }
+    }
+
+    /// The control points at the corners of a cell, by column, then row.
+    pub fn corners(&self, column: usize, row: usize) -> [usize; 4] {
+        [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| self.node(column + i, row + j))
     }
 
     /// Most by which the places of two control points of one curvature term differ.

@@ -8,20 +8,15 @@
 //! of a pixel would be favoured. Grey levels². A pixel that leaves the frame says nothing of who owns it: it is charged
 //! [`LEAVES`] of the largest cost.
 
+use super::super::estimate::saturation;
 use super::super::region::Region;
 use super::super::scale::Scale;
+use super::memory::WINDOW;
 use crate::grid::Grid;
 use crate::window::Window;
 
-/// κ: a residual of so many σ counts half its square.
-const CUT: f32 = 2.0;
 /// What a pixel that leaves the frame is charged, in units of the largest cost.
 const LEAVES: f32 = 0.6;
-
-/// The largest cost, (κσ)², grey levels².
-pub(crate) fn saturation(sigma: f32) -> f32 {
-    (CUT * sigma).powi(2)
-}
 
 #[inline(always)]
 fn cost(e: f32, most: f32) -> f32 {
@@ -38,16 +33,16 @@ pub(crate) fn rigid_residual(scale: &Scale, level: usize, region: &Region, out: 
     }
     let state = &region.state;
     let window = inside(&state.surface.window(), level, scale);
-    let target = state.pose().target(scale);
+    let view = state.view(&scale.camera);
     let mut rho = vec![1.0; window.width];
     for y in window.top..window.top + window.height {
         state.surface.row(level, y, window.left, &mut rho);
         let first = &scale.plain.row(y)[window.left..window.left + window.width];
         let out = &mut out.row_mut(y)[window.left..window.left + window.width];
         for (n, rho) in rho.iter().enumerate() {
-            let (x, y) = target.of(window.left + n, y, *rho);
+            let [x, y] = view.target(window.left + n, y, *rho);
             out[n] = if scale.contains(x, y) {
-                scale.plain_brightness(x, y) - first[n]
+                scale.plain_second.at(x, y) - first[n]
             } else {
                 f32::NAN
             };
@@ -85,7 +80,7 @@ pub(crate) fn planar_cost(scale: &Scale, region: &Region, sigma: f32, out: &mut 
             let (u, v) = region.flow.at(x, y);
             let (to_x, to_y) = (px as f32 + u * f, py as f32 + v * f);
             *out = if scale.contains(to_x, to_y) {
-                cost(scale.brightness(to_x, to_y) - first[px], most)
+                cost(scale.second.at(to_x, to_y) - first[px], most)
             } else {
                 LEAVES * most
             };
@@ -93,19 +88,19 @@ pub(crate) fn planar_cost(scale: &Scale, region: &Region, sigma: f32, out: &mut 
     }
 }
 
-/// What it costs to match by chance: the mean cost of the first frame against itself, [`SHIFT`] pixels away.
+/// What it costs to match by chance: the mean cost of the first frame against itself, a window away.
 pub(super) fn chance_cost(scale: &Scale, sigma: f32, out: &mut Grid<f32>) {
     let (most, first) = (saturation(sigma), &scale.plain);
-    let (width, height) = (scale.width, scale.height);
+    let (width, height, shift) = (scale.width, scale.height, 2 * WINDOW + 1);
     for y in 0..height {
         let row = first.row(y);
-        let above = first.row(y.saturating_sub(SHIFT));
-        let below = first.row((y + SHIFT).min(height - 1));
+        let above = first.row(y.saturating_sub(shift));
+        let below = first.row((y + shift).min(height - 1));
         for (x, out) in out.row_mut(y).iter_mut().enumerate() {
             let here = row[x];
             let around = [
-                row[x.saturating_sub(SHIFT)],
-                row[(x + SHIFT).min(width - 1)],
+                row[x.saturating_sub(shift)],
+                row[(x + shift).min(width - 1)],
                 above[x],
                 below[x],
             ];
@@ -113,9 +108,6 @@ pub(super) fn chance_cost(scale: &Scale, sigma: f32, out: &mut Grid<f32>) {
         }
     }
 }
-
-/// Pixels between what matches by chance only.
-const SHIFT: usize = 7;
 
 /// The part of a window of the finest scale that lies on scale `level`, in its pixels.
 pub(crate) fn inside(window: &Window, level: usize, scale: &Scale) -> Window {

@@ -1,15 +1,15 @@
 //! The planes that labelling works on, one set for each scale.
 
+use super::NOBODY;
 use super::data_cost::{chance_cost, charge};
 use super::partition::{argmin, box_blur, outline_energy, partition, pull};
-use super::{NOBODY, saturation};
 use crate::grid::Grid;
+use crate::layered::estimate::saturation;
 use crate::layered::scale::Scale;
+use crate::spread::spread;
 
-/// Half the side of the window over which costs are averaged while regions are planes.
-const PLANAR_WINDOW: usize = 3;
-/// Half the side of the window over which chance is averaged, twice.
-const CHANCE_WINDOW: usize = 3;
+/// Half the side of the window over which costs are averaged while regions are planes, and, twice, what chance costs.
+pub(super) const WINDOW: usize = 3;
 /// What a hidden pixel is charged, in units of what it costs to match by chance.
 const HIDDEN: f32 = 0.7;
 /// Half the side of the window, twice, of the costs that a coarse scale starts from.
@@ -56,15 +56,15 @@ impl Memory {
     /// What a hidden pixel is charged, at each pixel.
     pub fn find_chance(&mut self, scale: &Scale, sigma: f32) {
         chance_cost(scale, sigma, &mut self.chance);
-        box_blur(&mut self.chance, CHANCE_WINDOW, &mut self.spare);
-        box_blur(&mut self.chance, CHANCE_WINDOW, &mut self.spare);
+        box_blur(&mut self.chance, WINDOW, &mut self.spare);
+        box_blur(&mut self.chance, WINDOW, &mut self.spare);
         self.chance.data_mut().iter_mut().for_each(|c| *c *= HIDDEN);
     }
 
     /// Averages costs over a few pixels: while regions are planes, one alone tells little.
     pub fn average(&mut self) {
         for costs in &mut self.costs {
-            box_blur(costs, PLANAR_WINDOW, &mut self.spare);
+            box_blur(costs, WINDOW, &mut self.spare);
         }
     }
 
@@ -76,12 +76,8 @@ impl Memory {
             sizes.clear();
             let owned = labels.data().iter().zip(residuals.data());
             let owned = owned.filter(|(l, e)| usize::from(**l) == k && e.is_finite());
-            sizes.extend(owned.map(|(_, e)| e.abs()));
-            if sizes.len() > 1 {
-                let middle = sizes.len() / 2;
-                let median = *sizes.select_nth_unstable_by(middle, f32::total_cmp).1;
-                most = most.max(1.4826 * median);
-            }
+            sizes.extend(owned.map(|(_, e)| e));
+            most = most.max(spread(sizes) as f32);
         }
         most
     }

@@ -7,7 +7,7 @@ mod occlusion;
 mod partition;
 
 pub(super) use components::drop_small_components;
-pub(super) use data_cost::{planar_cost, rigid_residual, saturation};
+pub(super) use data_cost::{planar_cost, rigid_residual};
 pub(super) use memory::Memory;
 pub(super) use occlusion::Occlusion;
 pub(super) use partition::LENGTH_OF_PULL;

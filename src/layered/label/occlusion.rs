@@ -95,13 +95,13 @@ fn for_each_target(
     mut each: impl FnMut(usize, usize, f32, f32),
 ) {
     let window = inside(&state.surface.window(), level, scale);
-    let target = state.pose().target(scale);
+    let view = state.view(&scale.camera);
     let mut rho = vec![1.0; window.width];
     for y in window.top..window.top + window.height {
         state.surface.row(level, y, window.left, &mut rho);
         for (n, rho) in rho.iter().enumerate() {
             let x = window.left + n;
-            let (to_x, to_y) = target.of(x, y, *rho);
+            let [to_x, to_y] = view.target(x, y, *rho);
             each(x, y, to_x, to_y);
         }
     }

@@ -12,9 +12,9 @@
 //! neither right nor wrong.
 
 use super::hidden::{Arrivals, Fate};
-use super::view::View;
-use super::warp::Pair;
 use crate::grid::Grid;
+use crate::layered::scale::Scale;
+use crate::layered::view::View;
 use crate::linalg::solve;
 
 /// Neighbours that differ by more than this, in pixels of image motion, have a step between them.
@@ -30,18 +30,18 @@ const SIMILAR: f32 = 15.0;
 /// c of what is hidden.
 const HIDDEN: f32 = 0.35;
 
-/// Lets the pixels near steps of `rho` change sides. `scale` is pixels of image motion for each unit of ρ, `sigma` the
+/// Lets the pixels near steps of `rho` change sides. `pixels` of image motion are a unit of ρ, `sigma` the
 /// spread of a comparison in grey levels.
 pub fn settle(
-    pair: &Pair,
+    scale: &Scale,
     view: &View,
     support: &Grid<bool>,
     rho: &mut Grid<f32>,
-    scale: f32,
+    pixels: f32,
     sigma: f32,
 ) {
     let (width, height) = (rho.width(), rho.height());
-    let band = band(rho, support, STEP / scale);
+    let band = band(rho, support, STEP / pixels);
     let arrivals = Arrivals::new(rho, view, support);
     let cut = (2.5 * sigma).powi(2);
     let mut places = Vec::new();
@@ -54,17 +54,17 @@ pub fn settle(
             if !band[(x, y)] {
                 continue;
             }
-            let Some([near, far]) = planes(rho, support, x, y, GAP / scale) else {
+            let Some([near, far]) = planes(rho, support, x, y, GAP / pixels) else {
                 continue;
             };
-            let first = pair.first()[(x, y)];
+            let first = scale.first[(x, y)];
             let three = [near, far, rho[(x, y)]];
             index[(x, y)] = costs.len() as u32;
             costs.push(three.map(|r| {
                 let [tx, ty] = view.target(x, y, r);
                 match arrivals.fate([tx, ty], r, 0.5 * (near - far)) {
                     Fate::Seen => {
-                        let e = pair.sample(tx, ty)[0] - first;
+                        let e = scale.second.at(tx, ty) - first;
                         e * e / (e * e + cut)
                     }
                     Fate::Covered | Fate::Outside => HIDDEN,
@@ -77,7 +77,7 @@ pub fn settle(
     let similar: Vec<f32> = (0..512)
         .map(|k| (-0.5 * k as f32 / SIMILAR).exp())
         .collect();
-    let guide = pair.guide();
+    let guide = &scale.plain;
     for (&(x, y), three) in places.iter().zip(&values) {
         let grey = guide[(x, y)];
         let mut sums = [0.0f32; 3];
@@ -170,22 +170,4 @@ fn planes(rho: &Grid<f32>, support: &Grid<bool>, x: usize, y: usize, gap: f32) -
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn planes_of_both_sides_are_continued() {
-        let side = |x: usize, y: usize, near: bool| {
-            0.02 * x as f32 - 0.01 * y as f32 + if near { 3.0 } else { 1.0 }
-        };
-        let rho = Grid::from_fn(30, 20, |x, y| side(x, y, x > 14));
-        let support = Grid::new(30, 20, true);
-        let [near, far] = planes(&rho, &support, 13, 9, 0.5).unwrap();
-        assert!((near - side(13, 9, true)).abs() < 0.1, "{near}");
-        assert!((far - side(13, 9, false)).abs() < 0.05, "{far}");
-        assert_eq!(planes(&rho, &support, 4, 9, 0.5), None);
-        let marked = band(&rho, &support, 0.3);
-        let row: Vec<usize> = (0..30).filter(|&x| marked[(x, 9)]).collect();
-        assert_eq!(row, (11..18).collect::<Vec<_>>());
-    }
-}
+mod tests;

@@ -4,38 +4,36 @@
 //!
 //! ```text
 //! minimise  Σ ψ(e + e_x (x − x₀))/σ²  +  Σ λ_I [ φ(∂xx x) + φ(∂yy x) ],      φ(d) = δ² log(1 + d²/δ²)
-//! λ_I = λ/(1 + |∇I|/50)
+//! λ_I = λ/(1 + |∇I|/20)
 //! ```
 //!
-//! e is the difference of the frames in grey levels, σ its robust spread, ψ Geman and McClure's at 2.5σ. ψ and φ are
+//! e is the difference of the frames in grey levels, σ its robust spread, ψ Geman and McClure's at 5σ. ψ and φ are
 //! taken as squares with the weights of the present x, which makes the linear system of [`Lines`]. λ rises and δ falls
 //! from warp to warp: first what the start has wrong is smoothed away, then what is smooth is made smooth, while
 //! creases and steps are kept. From the third warp on, pixels near steps may change sides, see [`settle`].
 //!
-//! The first three warps change T (|T| held) and ω too, by one Gauss–Newton step with a change of ρ eliminated in each
-//! 4×4 pixels. Pixels that are covered or leave the frame say nothing; those that leave continue what is seen. There are
-//! six warps.
+//! The first half of the warps change T (|T| held) and ω too, by one Gauss–Newton step with a change of ρ eliminated in each
+//! 4×4 pixels. Pixels that are covered or leave the frame say nothing; those that leave continue what is seen.
 
 use super::boundaries::settle;
 use super::hidden::{continue_outside, hidden};
+use super::linearisation::Linearisation;
 use super::lines::{Bending, Lines};
 use super::motion_step::motion_step;
 use super::sweep::unit_mean;
-use super::view::View;
-use super::warp::{Linearisation, Pair};
-use crate::camera::{Camera, RigidMotion};
+use crate::camera::RigidMotion;
 use crate::grid::Grid;
+use crate::layered::scale::Scale;
+use crate::layered::view::View;
 
 /// Warps.
 const WARPS: usize = 6;
-/// Warps that change the motion.
-const MOTION_WARPS: usize = 3;
 /// λ at the first and the last warp, 1/px².
-const SMOOTHNESS: [f32; 2] = [30.0, 5e4];
+const SMOOTHNESS: [f32; 2] = [20.0, 5e4];
 /// δ at the first and the last warp, px.
-const CREASE: [f32; 2] = [0.15, 0.01];
+const CREASE: [f32; 2] = [0.4, 0.007];
 /// Gradient at which λ has halved, grey levels a pixel.
-const EDGE: f32 = 50.0;
+const EDGE: f32 = 20.0;
 /// Least weight of bending: nothing else holds pixels without data.
 const LEAST_BENDING: f32 = 1e-4;
 /// Shifts of the alternating directions, as shares of λ.
@@ -43,9 +41,7 @@ const SHIFTS: [f32; 3] = [1.0, 0.1, 1e-2];
 /// A pixel is covered by what is nearer by more than this many pixels of image motion.
 const COVERED: f32 = 0.7;
 /// Where ψ turns, in σ.
-const CLIP: f32 = 2.5;
-/// Farthest that x goes in a warp, px: beyond, the linearisation says nothing.
-const FARTHEST: f32 = 1.0;
+const CLIP: f32 = 5.0;
 
 /// Depth and motion of one region.
 #[derive(Clone, Debug)]
@@ -56,39 +52,31 @@ pub struct Refined {
     pub motion: RigidMotion,
 }
 
-/// Refines ρ from `start` for the pixels of `support`, and the motion. Frames are grey levels; all grids are of one
-/// size. `start` should be right to a pixel or two of image motion; |T| must not be 0.
+/// Refines ρ from `start` for the pixels of `support`, and the motion. All grids are of the scale's size. `start` should be
+/// right to a pixel or two of image motion; |T| must not be 0.
 pub fn refine(
-    frames: [&Grid<f32>; 2],
-    camera: &Camera,
+    scale: &Scale,
     motion: &RigidMotion,
     support: &Grid<bool>,
     start: Grid<f32>,
 ) -> Refined {
-    let mut dense = Dense::new(frames, start);
+    let mut dense = Dense::new(scale, start);
     let mut motion = *motion;
     for warp in 0..WARPS {
         let share = warp as f32 / (WARPS - 1) as f32;
         let between = |[first, last]: [f32; 2]| first * (last / first).powf(share);
-        let mut view = View::new(camera, &motion);
-        let scale = view.pixels_a_rho(support);
+        let mut view = View::of(&scale.camera, &motion);
+        let pixels = view.pixels_a_rho(support);
         if warp > 1 {
-            settle(
-                &dense.pair,
-                &view,
-                support,
-                &mut dense.rho,
-                scale,
-                dense.sigma,
-            );
+            settle(scale, &view, support, &mut dense.rho, pixels, dense.sigma);
         }
-        dense.look(&view, support, scale);
-        if warp < MOTION_WARPS {
+        dense.look(&view, support, pixels);
+        if 2 * warp < WARPS {
             let compared = &mut dense.compared;
             motion_step(compared, &view, &dense.rho, dense.sigma, &mut motion);
-            view = View::new(camera, &motion);
+            view = View::of(&scale.camera, &motion);
         }
-        dense.smooth(&view, scale, between(SMOOTHNESS), between(CREASE));
+        dense.smooth(&view, pixels, between(SMOOTHNESS), between(CREASE));
     }
     let mut refined = Refined {
         rho: dense.rho,
@@ -99,8 +87,8 @@ pub fn refine(
 }
 
 /// What a warp works on.
-struct Dense {
-    pair: Pair,
+struct Dense<'a> {
+    scale: &'a Scale,
     contrast: Grid<f32>,
     rho: Grid<f32>,
     hidden: Grid<bool>,
@@ -112,14 +100,18 @@ struct Dense {
     pull: Vec<f32>,
 }
 
-impl Dense {
-    fn new(frames: [&Grid<f32>; 2], start: Grid<f32>) -> Self {
+impl<'a> Dense<'a> {
+    fn new(scale: &'a Scale, start: Grid<f32>) -> Self {
         let (width, height) = (start.width(), start.height());
         let plane = || Grid::new(width, height, 0.0f32);
-        let pair = Pair::new(frames[0], frames[1]);
+        let [gx, gy] = &scale.gradient;
+        let mut contrast = gx.clone();
+        for (c, gy) in contrast.data_mut().iter_mut().zip(gy.data()) {
+            *c = c.hypot(*gy);
+        }
         Self {
-            contrast: pair.contrast(),
-            pair,
+            scale,
+            contrast,
             hidden: Grid::new(width, height, false),
             compared: Linearisation::new(width * height),
             sigma: 1.0,
@@ -135,39 +127,40 @@ impl Dense {
         }
     }
 
-    /// Warps by the present ρ. `scale` is pixels of image motion for each unit of ρ.
-    fn look(&mut self, view: &View, support: &Grid<bool>, scale: f32) {
-        self.hidden = hidden(&self.rho, view, support, COVERED / scale);
-        continue_outside(&mut self.rho, view, &self.hidden, 1.0 / scale);
-        self.pair
-            .linearise(view, &self.rho, support, &self.hidden, &mut self.compared);
+    /// Warps by the present ρ. `pixels` of image motion are a unit of ρ.
+    fn look(&mut self, view: &View, support: &Grid<bool>, pixels: f32) {
+        self.hidden = hidden(&self.rho, view, support, COVERED / pixels);
+        continue_outside(&mut self.rho, view, &self.hidden, 1.0 / pixels);
+        self.compared
+            .compare(self.scale, view, &self.rho, support, &self.hidden);
         self.sigma = self.compared.spread();
     }
 
     /// One solve for ρ.
-    fn smooth(&mut self, view: &View, scale: f32, lambda: f32, delta: f32) {
+    fn smooth(&mut self, view: &View, pixels: f32, lambda: f32, delta: f32) {
         for (x, &r) in self.x.iter_mut().zip(self.rho.data()) {
-            *x = r * scale;
+            *x = r * pixels;
         }
-        self.weigh_data(view, scale);
+        self.weigh_data(view, pixels);
         self.weigh_bending(lambda, delta);
         let shifts = SHIFTS.map(|s| s * lambda);
         self.lines
             .solve(&self.bending, &mut self.x, &self.pull, &shifts);
         for (r, &x) in self.rho.data_mut().iter_mut().zip(&self.x) {
-            let step = (x - *r * scale).clamp(-FARTHEST, FARTHEST);
-            *r += step / scale;
+            // Beyond a pixel the linearisation says nothing.
+            let step = (x - *r * pixels).clamp(-1.0, 1.0);
+            *r += step / pixels;
         }
     }
 
-    fn weigh_data(&mut self, view: &View, scale: f32) {
+    fn weigh_data(&mut self, view: &View, pixels: f32) {
         let t = view.translation;
         let cut = 1.0 / (CLIP * self.sigma).powi(2);
         let precision = 1.0 / self.sigma.powi(2);
         let [gx, gy, gz] = &self.compared.gradient;
         let data = self.bending.data.data_mut();
         for (i, (a, pull)) in data.iter_mut().zip(&mut self.pull).enumerate() {
-            let slope = (gx[i] * t[0] + gy[i] * t[1] + gz[i] * t[2]) / scale;
+            let slope = (gx[i] * t[0] + gy[i] * t[1] + gz[i] * t[2]) / pixels;
             let e = self.compared.residual[i];
             let weight = 1.0 / (1.0 + e * e * cut);
             // Where nothing is compared the slope is 0.
@@ -203,95 +196,4 @@ impl Dense {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::camera::Camera;
-    use glam::DVec3;
-
-    const SIZE: [usize; 2] = [96, 72];
-
-    fn texture(x: f64, y: f64) -> f64 {
-        let waves = [
-            (0.5, 0.2),
-            (-0.3, 0.6),
-            (0.2, -0.7),
-            (0.9, 0.4),
-            (0.15, 0.1),
-        ];
-        let sum: f64 = waves
-            .iter()
-            .enumerate()
-            .map(|(k, (a, b))| (a * x + b * y + k as f64).sin())
-            .sum();
-        128.0 + 20.0 * sum
-    }
-
-    /// ρ of the second frame's pixel on a slanted plane, with a step of depth at a column or without.
-    fn plane(x: f64, step: bool) -> f64 {
-        let near = if step && x > 50.0 { 0.5 } else { 0.0 };
-        0.8 + 0.003 * x + near
-    }
-
-    /// Noise of 2 grey levels.
-    fn noise(x: usize, y: usize, frame: u64) -> f32 {
-        let mut h = ((x * 977 + y) as u64 * 2 + frame).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        h = (h ^ (h >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        (((h >> 40) & 1023) as f32 / 511.5 - 1.0) * 3.46
-    }
-
-    /// Frames of a scene under a shift along x, rendered from the first frame's depth: I1(x) = I2(x + u(x)).
-    fn frames(step: bool, shift: f64) -> [Grid<f32>; 2] {
-        let [width, height] = SIZE;
-        let second = Grid::from_fn(width, height, |x, y| {
-            texture(x as f64, y as f64) as f32 + noise(x, y, 1)
-        });
-        let first = Grid::from_fn(width, height, |x, y| {
-            let moved = x as f64 + shift * plane(x as f64, step);
-            texture(moved, y as f64) as f32 + noise(x, y, 0)
-        });
-        [first, second]
-    }
-
-    fn error(step: bool, wrong: impl Fn(usize, usize) -> f32) -> f32 {
-        let [width, height] = SIZE;
-        let (shift, focal) = (3.0, 100.0);
-        let [first, second] = frames(step, shift);
-        let camera = Camera::centred(focal, width, height).unwrap();
-        let motion = RigidMotion {
-            translation: DVec3::new(shift / focal, 0.0, 0.0),
-            rotation: DVec3::ZERO,
-        };
-        let support = Grid::new(width, height, true);
-        let truth = Grid::from_fn(width, height, |x, _| plane(x as f64, step) as f32);
-        let start = Grid::from_fn(width, height, |x, y| truth[(x, y)] + wrong(x, y));
-        let found = refine([&first, &second], &camera, &motion, &support, start);
-        let (mut sum, mut count) = (0.0, 0.0);
-        for y in 0..height {
-            for x in 0..width - 10 {
-                let r = f64::from(found.rho[(x, y)]);
-                let (u, v) = camera
-                    .displacement(&found.motion, x as f64, y as f64, r)
-                    .unwrap();
-                let true_u = shift * f64::from(truth[(x, y)]);
-                sum += (u - true_u).hypot(v);
-                count += 1.0;
-            }
-        }
-        (sum / count) as f32
-    }
-
-    #[test]
-    fn a_smooth_surface_has_no_floor_from_its_start() {
-        // A start with the staircase of a sweep, 0.2 px high.
-        let e = error(false, |x, y| {
-            0.07 * if (x / 7 + y / 9) % 2 == 0 { 1.0 } else { -1.0 }
-        });
-        assert!(e < 0.025, "{e} px");
-    }
-
-    #[test]
-    fn a_step_two_pixels_off_is_put_right() {
-        let e = error(true, |x, _| if x == 51 || x == 52 { -0.5 } else { 0.0 });
-        assert!(e < 0.06, "{e} px");
-    }
-}
+mod tests;

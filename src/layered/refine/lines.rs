@@ -11,6 +11,7 @@
 //! sum. Where wx and wy are 0, lines are cut.
 
 use crate::grid::Grid;
+use crate::linalg::dot;
 
 /// The weights of the sum.
 pub struct Bending {
@@ -91,16 +92,16 @@ impl Lines {
             let beta = if k == 0 || curvature <= 0.0 {
                 0.0
             } else {
-                -(dot(&self.step, &self.applied) / curvature) as f32
+                -(long_dot(&self.step, &self.applied) / curvature) as f32
             };
             for (d, &s) in self.direction.iter_mut().zip(&self.step) {
                 *d = s + beta * *d;
             }
             let direction = std::mem::take(&mut self.direction);
             self.apply(bending, &direction, true);
-            curvature = dot(&direction, &self.applied);
+            curvature = long_dot(&direction, &self.applied);
             if curvature > 0.0 {
-                let length = (dot(&self.residual, &direction) / curvature) as f32;
+                let length = (long_dot(&self.residual, &direction) / curvature) as f32;
                 for (x, &d) in x.iter_mut().zip(&direction) {
                     *x += length * d;
                 }
@@ -265,89 +266,10 @@ fn transpose(from: &[f32], to: &mut [f32], width: usize, height: usize) {
 }
 
 /// Σ a b, in f64 over runs of single precision.
-fn dot(a: &[f32], b: &[f32]) -> f64 {
-    const LANES: usize = 8;
-    let mut total = 0.0;
-    for (a, b) in a.chunks(1024).zip(b.chunks(1024)) {
-        let mut sums = [0.0f32; LANES];
-        let (a8, b8) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-        let rest: f32 = a8
-            .remainder()
-            .iter()
-            .zip(b8.remainder())
-            .map(|(a, b)| a * b)
-            .sum();
-        for (a, b) in a8.zip(b8) {
-            for k in 0..LANES {
-                sums[k] += a[k] * b[k];
-            }
-        }
-        total += f64::from(rest) + sums.iter().map(|&s| f64::from(s)).sum::<f64>();
-    }
-    total
+fn long_dot(a: &[f32], b: &[f32]) -> f64 {
+    let runs = a.chunks(1024).zip(b.chunks(1024));
+    runs.map(|(a, b)| f64::from(dot(a, b))).sum()
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn weights(width: usize, height: usize) -> Bending {
-        let noise = |x: usize, y: usize| ((x * 7 + y * 13 + x * y) % 11) as f32 / 11.0;
-        Bending {
-            data: Grid::from_fn(width, height, |x, y| {
-                if (x + y) % 3 == 0 { 0.0 } else { noise(x, y) }
-            }),
-            across: Grid::from_fn(width, height, |x, y| {
-                if x == 0 || x + 1 == width {
-                    0.0
-                } else {
-                    30.0 * (0.1 + noise(y, x))
-                }
-            }),
-            down: Grid::from_fn(width, height, |x, y| {
-                if y == 0 || y + 1 == height {
-                    0.0
-                } else {
-                    30.0 * (0.1 + noise(x, y))
-                }
-            }),
-        }
-    }
-
-    #[test]
-    fn reaches_the_known_solution() {
-        let (width, height) = (37, 29);
-        let bending = weights(width, height);
-        let known = Grid::from_fn(width, height, |x, y| {
-            (0.2 * x as f32).sin() + (0.13 * y as f32).cos() + if x > 20 { 1.0 } else { 0.0 }
-        });
-        let mut lines = Lines::new(width, height);
-        // A·known, to be found again from 0.
-        lines.apply(&bending, known.data(), true);
-        let right = lines.applied.clone();
-        let mut x = vec![0.0; width * height];
-        let shifts: Vec<f32> = (0..40).map(|k| 30.0 * 0.1f32.powi(k % 5)).collect();
-        lines.solve(&bending, &mut x, &right, &shifts);
-        let worst = x
-            .iter()
-            .zip(known.data())
-            .map(|(a, b)| (a - b).abs())
-            .fold(0.0, f32::max);
-        assert!(worst < 0.02, "{worst}");
-    }
-
-    #[test]
-    fn leaves_planes_alone() {
-        let (width, height) = (21, 33);
-        let bending = weights(width, height);
-        let plane = Grid::from_fn(width, height, |x, y| 0.3 * x as f32 - 0.2 * y as f32 + 4.0);
-        let mut x = plane.data().to_vec();
-        let pull = vec![0.0; width * height];
-        Lines::new(width, height).solve(&bending, &mut x, &pull, &[10.0, 1.0, 0.1]);
-        assert!(
-            x.iter()
-                .zip(plane.data())
-                .all(|(a, b)| (a - b).abs() < 1e-3)
-        );
-    }
-}
+mod tests;

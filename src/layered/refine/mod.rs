@@ -4,12 +4,15 @@ mod boundaries;
 mod census;
 mod dense;
 mod hidden;
+mod linearisation;
 mod lines;
 mod motion_step;
 mod semi_global;
 mod sweep;
-mod view;
-mod warp;
+mod volume;
 
-pub use dense::refine;
+pub use dense::{Refined, refine};
 pub use sweep::{match_range, sweep};
+
+#[cfg(all(target_arch = "wasm32", feature = "bench"))]
+pub use {census::census, semi_global::aggregate, volume::volume};

@@ -1,46 +1,27 @@
 //! Plane sweep: inverse depth at every pixel of one rigid motion, by trying depths.
 //!
 //! Depth is u (see [`View`]) at 32 to 64 equal steps, so that a pixel's target moves evenly along a line of the second
-//! frame, by half a pixel or so. The cost of a step is
-//!
-//! ```text
-//! C = min(0.7 |I2' − I1'|, 18) + 1.5 · (bits in which the 5×5 census differs)
-//! ```
-//!
-//! I' in grey levels less the local mean, I2' bilinear. It is smoothed by semi-global matching; the best step is taken,
+//! frame, by half a pixel or so. What a step costs (`volume.rs`) is smoothed by semi-global matching; the best step is taken,
 //! to sub-step by the two lines through its neighbours, then the 3×3 median, and hidden pixels are filled from behind.
-//! Pixels outside of the support cost nothing at any depth, so that they follow what is around them.
 //!
 //! ρ has a mean of 1 over the support, and T is scaled with it. Frames of more than 640×480 pixels are swept at half
 //! their size: 3 bytes × 64 steps a pixel is the memory that it takes.
 
-use super::census::census;
 use super::hidden::{fill, hidden};
 use super::semi_global::aggregate;
-use super::view::View;
+use super::volume::volume;
 use crate::camera::{Camera, RigidMotion};
 use crate::frames::{halved, halved_camera};
 use crate::grid::Grid;
-use crate::init::{EpipolarMotion, Match, less_box_mean};
+use crate::init::{EpipolarMotion, Match};
+use crate::layered::view::View;
 
 /// Fewest and most steps of depth.
 const LABELS: [usize; 2] = [32, 64];
-/// Steps a pixel of image motion.
-const LABELS_A_PIXEL: f32 = 2.0;
-/// Radius of the local mean in pixels.
-const MEAN_RADIUS: usize = 8;
-/// Cost of a grey level, and most that brightness costs.
-const GREY: (f32, f32) = (0.7, 18.0);
-/// Cost of a census bit.
-const BIT: f32 = 1.5;
-/// Cost of a target outside of the second frame.
-const OUTSIDE: u8 = 18;
-/// A pixel is hidden behind another that is nearer by more than this many steps.
-const HIDDEN_STEPS: f32 = 2.0;
+/// Steps for each pixel of image motion.
+const STEPS_A_PIXEL: f32 = 2.0;
 /// Frames with more pixels than this are halved.
 const MOST_PIXELS: usize = 640 * 480;
-/// Fractional bits of a target's coordinates.
-const FRACTION: u32 = 16;
 
 /// Inverse depth found by a plane sweep.
 #[derive(Clone, Debug)]
@@ -55,7 +36,7 @@ pub struct Sweep {
 
 /// The range of u that the matches of one motion need, with a margin; |T| is 1. `None` with fewer than eight.
 pub fn match_range(matches: &[Match], found: &EpipolarMotion, camera: &Camera) -> Option<[f32; 2]> {
-    let view = View::new(camera, &found.motion);
+    let view = View::of(camera, &found.motion);
     let mut all: Vec<f32> = matches
         .iter()
         .filter_map(|m| {
@@ -124,12 +105,12 @@ fn sweep_whole(
     [low, high]: [f32; 2],
 ) -> Sweep {
     let (width, height) = (frames[0].width(), frames[0].height());
-    let view = View::new(camera, motion);
+    let view = View::of(camera, motion);
     let labels = count_labels(&view, width, height, high - low);
     let step = (high - low) / (labels - 1) as f32;
-    let volume = Volume::new(frames, &view, support, labels, low, step);
-    let sums = aggregate(&volume.costs, labels, frames[0]);
-    drop(volume);
+    let costs = volume(frames, &view, support, labels, low, step);
+    let sums = aggregate(&costs, labels, frames[0]);
+    drop(costs);
     let best = Grid::from_vec(
         width,
         height,
@@ -144,7 +125,7 @@ fn sweep_whole(
         })
     };
     let raw = depth(&best);
-    let mask = hidden(&raw, &view, support, HIDDEN_STEPS * step);
+    let mask = hidden(&raw, &view, support, STEPS_A_PIXEL * step);
     let mut rho = depth(&median3(&best));
     fill(&mut rho, &mask);
     Sweep {
@@ -165,7 +146,7 @@ fn count_labels(view: &View, width: usize, height: usize, span: f32) -> usize {
     }
     let rank = speeds.len() * 9 / 10;
     let speed = *speeds.select_nth_unstable_by(rank, f32::total_cmp).1;
-    let wanted = (span * speed * LABELS_A_PIXEL) as usize;
+    let wanted = (span * speed * STEPS_A_PIXEL) as usize;
     wanted
         .div_ceil(16)
         .saturating_mul(16)
@@ -194,213 +175,26 @@ fn minimum(sums: &[u16]) -> f32 {
     k as f32 + shift
 }
 
-/// The median of the 3×3 pixels around each, the border left as it is.
+/// The median of the 3×3 pixels around each, the border left as it is: of the columns' medians the middle one, unless all
+/// least or all greatest values of columns say otherwise.
 fn median3(field: &Grid<f32>) -> Grid<f32> {
-    // Pairs to put in order, after which the fifth of nine is their median.
-    const ORDER: [(usize, usize); 19] = [
-        (1, 2),
-        (4, 5),
-        (7, 8),
-        (0, 1),
-        (3, 4),
-        (6, 7),
-        (1, 2),
-        (4, 5),
-        (7, 8),
-        (0, 3),
-        (5, 8),
-        (4, 7),
-        (3, 6),
-        (1, 4),
-        (2, 5),
-        (4, 7),
-        (4, 2),
-        (6, 4),
-        (4, 2),
-    ];
-    let (width, height) = (field.width(), field.height());
+    let least = |v: [f32; 3]| v[0].min(v[1]).min(v[2]);
+    let most = |v: [f32; 3]| v[0].max(v[1]).max(v[2]);
+    let middle = |v: [f32; 3]| v[0].min(v[1]).max(v[0].max(v[1]).min(v[2]));
     let mut out = field.clone();
-    for y in 1..height - 1 {
-        for x in 1..width - 1 {
-            let mut v = [0.0f32; 9];
-            for (j, three) in v.chunks_exact_mut(3).enumerate() {
-                three.copy_from_slice(&field.row(y + j - 1)[x - 1..x + 2]);
-            }
-            for (a, b) in ORDER {
-                (v[a], v[b]) = (v[a].min(v[b]), v[a].max(v[b]));
-            }
-            out[(x, y)] = v[4];
+    for y in 1..field.height() - 1 {
+        for x in 1..field.width() - 1 {
+            let columns = [x - 1, x, x + 1].map(|x| [y - 1, y, y + 1].map(|y| field[(x, y)]));
+            let [low, mid, high] = [
+                most(columns.map(least)),
+                middle(columns.map(middle)),
+                least(columns.map(most)),
+            ];
+            out[(x, y)] = middle([low, mid, high]);
         }
     }
     out
 }
 
-/// C of every pixel and step.
-struct Volume {
-    costs: Vec<u8>,
-}
-
-impl Volume {
-    fn new(
-        frames: [&Grid<f32>; 2],
-        view: &View,
-        support: &Grid<bool>,
-        labels: usize,
-        low: f32,
-        step: f32,
-    ) -> Self {
-        let (width, height) = (frames[0].width(), frames[0].height());
-        let bits = frames.map(census);
-        // Sixteenths of a grey level.
-        let greys = frames.map(|frame| {
-            let rest = less_box_mean(frame, MEAN_RADIUS);
-            rest.data()
-                .iter()
-                .map(|v| (v * 16.0) as i16)
-                .collect::<Vec<i16>>()
-        });
-        let mut costs = vec![0u8; labels * width * height];
-        for y in 0..height {
-            for x in 0..width {
-                let i = y * width + x;
-                if !support[(x, y)] {
-                    continue;
-                }
-                let row = &mut costs[i * labels..(i + 1) * labels];
-                let (start, speed) = view.line(view.turned(x, y));
-                let line = Line {
-                    start: [start[0] + low * speed[0], start[1] + low * speed[1]],
-                    step: speed.map(|s| s * step),
-                };
-                row.fill(OUTSIDE);
-                let Some((first, last)) = line.within(width, height, labels) else {
-                    continue;
-                };
-                let fixed = |v: f32| (v * (1 << FRACTION) as f32) as i32;
-                let end = [width, height].map(|side| ((side as i32 - 1) << FRACTION) - 1);
-                let mut at = [0, 1].map(|k| fixed(line.start[k] + line.step[k] * first as f32));
-                let by = line.step.map(fixed);
-                for cost in &mut row[first..=last] {
-                    let [px, py] = [at[0].clamp(0, end[0]), at[1].clamp(0, end[1])];
-                    let (xi, yi) = ((px >> FRACTION) as usize, (py >> FRACTION) as usize);
-                    let (tx, ty) = ((px >> 8) & 255, (py >> 8) & 255);
-                    let o = yi * width + xi;
-                    let (top, bottom) = (&greys[1][o..o + 2], &greys[1][o + width..o + width + 2]);
-                    let [a, b, c, d] = [top[0], top[1], bottom[0], bottom[1]].map(i32::from);
-                    let upper = a * 256 + tx * (b - a);
-                    let lower = c * 256 + tx * (d - c);
-                    let grey = (upper >> 8) + ((ty * ((lower - upper) >> 8)) >> 8);
-                    let difference = (grey - i32::from(greys[0][i])).abs();
-                    let nearest = o + (tx >> 7) as usize + (ty >> 7) as usize * width;
-                    let differing = (bits[0][i] ^ bits[1][nearest]).count_ones() as i32;
-                    *cost = cost_of(difference, differing);
-                    at = [at[0] + by[0], at[1] + by[1]];
-                }
-            }
-        }
-        Self { costs }
-    }
-}
-
-/// C, of a difference in sixteenths of a grey level and a number of census bits.
-fn cost_of(difference: i32, differing: i32) -> u8 {
-    const SCALE: f32 = 16.0;
-    let grey = ((difference * (GREY.0 * SCALE) as i32) >> 4).min((GREY.1 * SCALE) as i32);
-    ((grey + differing * (BIT * SCALE) as i32) >> 4) as u8
-}
-
-/// Where a pixel goes, label by label.
-struct Line {
-    start: [f32; 2],
-    step: [f32; 2],
-}
-
-impl Line {
-    /// First and last label whose target lies on the frame.
-    fn within(&self, width: usize, height: usize, labels: usize) -> Option<(usize, usize)> {
-        let (mut first, mut last) = (0.0f32, (labels - 1) as f32);
-        for (k, side) in [width, height].into_iter().enumerate() {
-            let most = side as f32 - 1.002;
-            let (a, s) = (self.start[k], self.step[k]);
-            if s.abs() < 1e-6 {
-                if !(a >= 0.0 && a <= most) {
-                    return None;
-                }
-            } else {
-                let (p, q) = (-a / s, (most - a) / s);
-                first = first.max(p.min(q));
-                last = last.min(p.max(q));
-            }
-        }
-        let (first, last) = (first.ceil(), last.floor());
-        (first <= last).then_some((first as usize, last as usize))
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use glam::DVec3;
-
-    /// A texture without repetition, by an integer hash smoothed between its points 3 px apart.
-    fn texture(x: f32, y: f32) -> f32 {
-        let at = |i: i32, j: i32| {
-            let h = (i.wrapping_mul(374_761_393) ^ j.wrapping_mul(668_265_263)) as u32;
-            let h = (h ^ (h >> 13)).wrapping_mul(1_274_126_177);
-            ((h >> 16) & 255) as f32
-        };
-        let (x, y) = (x / 3.0, y / 3.0);
-        let (i, j) = (x.floor(), y.floor());
-        let (s, t) = (x - i, y - j);
-        let (i, j) = (i as i32, j as i32);
-        let top = at(i, j) * (1.0 - s) + at(i + 1, j) * s;
-        let bottom = at(i, j + 1) * (1.0 - s) + at(i + 1, j + 1) * s;
-        top * (1.0 - t) + bottom * t
-    }
-
-    /// Share of the pixels, away from the step and the border, that the sweep has within half a pixel; |T| f is 4 px.
-    fn share_right(width: usize, height: usize, support: &Grid<bool>) -> f64 {
-        let focal = width as f64;
-        let camera = Camera::centred(focal, width, height).unwrap();
-        let motion = RigidMotion {
-            translation: DVec3::new(4.0 / focal, 0.0, 0.0),
-            rotation: DVec3::ZERO,
-        };
-        let rho = |x: usize| if x > width / 2 { 2.0f32 } else { 0.5 };
-        let second = Grid::from_fn(width, height, |x, y| texture(x as f32, y as f32));
-        let first = Grid::from_fn(width, height, |x, y| {
-            texture(x as f32 + 4.0 * rho(x), y as f32)
-        });
-        let found = sweep([&first, &second], &camera, &motion, support, [0.0, 3.0]);
-        let length = found.motion.translation.length() * focal;
-        let (mut right, mut count) = (0.0, 0.0);
-        for y in 4..height - 4 {
-            for x in (4..width - 14).filter(|x| x.abs_diff(width / 2) > 10) {
-                if support[(x, y)] {
-                    let moved = length as f32 * found.rho[(x, y)];
-                    right += f64::from(u8::from((moved - 4.0 * rho(x)).abs() < 0.5));
-                    count += 1.0;
-                }
-            }
-        }
-        right / count
-    }
-
-    #[test]
-    fn finds_two_depths() {
-        assert!(share_right(96, 72, &Grid::new(96, 72, true)) > 0.97);
-    }
-
-    #[test]
-    fn needs_no_more_than_its_support() {
-        let support = Grid::from_fn(96, 72, |x, y| (x / 20 + y / 20) % 2 == 0);
-        assert!(share_right(96, 72, &support) > 0.95);
-    }
-
-    #[test]
-    fn halves_large_frames() {
-        let (width, height) = (1000, 312);
-        assert!(width * height > MOST_PIXELS);
-        assert!(share_right(width, height, &Grid::new(width, height, true)) > 0.95);
-    }
-}
+mod tests;

@@ -8,54 +8,56 @@
 //!
 //! so it moves along a line, by f |m| pixels for each unit of u. u grows with ρ.
 
+use glam::{DMat3, DVec3};
+
 use crate::camera::{Camera, RigidMotion};
 use crate::grid::Grid;
 
 /// A rigid motion seen by a camera.
-#[derive(Clone, Copy)]
-pub struct View {
-    focal: f32,
-    cx: f32,
-    cy: f32,
-    rotation: [[f32; 3]; 3],
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View {
+    pub focal: f32,
+    centre: [f32; 2],
+    /// R by rows.
+    pub rotation: [[f32; 3]; 3],
     /// T.
     pub translation: [f32; 3],
 }
 
 impl View {
-    /// The view of `motion` by `camera`.
-    pub fn new(camera: &Camera, motion: &RigidMotion) -> Self {
-        let rows = motion.matrix().transpose().to_cols_array_2d();
+    /// What `camera` sees of R and T.
+    pub fn new(camera: &Camera, rotation: DMat3, translation: DVec3) -> Self {
+        let rows = rotation.transpose().to_cols_array_2d();
         Self {
             focal: camera.focal as f32,
-            cx: camera.cx as f32,
-            cy: camera.cy as f32,
+            centre: [camera.cx as f32, camera.cy as f32],
             rotation: rows.map(|row| row.map(|v| v as f32)),
-            translation: motion.translation.to_array().map(|v| v as f32),
+            translation: translation.to_array().map(|v| v as f32),
         }
     }
 
-    /// f in pixels.
-    pub fn focal(&self) -> f32 {
-        self.focal
+    /// What `camera` sees of a motion.
+    pub fn of(camera: &Camera, motion: &RigidMotion) -> Self {
+        Self::new(camera, motion.matrix(), motion.translation)
     }
 
     /// R ray of pixel (x, y).
+    #[inline(always)]
     pub fn turned(&self, x: usize, y: usize) -> [f32; 3] {
-        let (px, py) = (
-            (x as f32 - self.cx) / self.focal,
-            (y as f32 - self.cy) / self.focal,
-        );
-        self.rotation.map(|r| r[0] * px + r[1] * py + r[2])
+        let (share, [cx, cy]) = (1.0 / self.focal, self.centre);
+        let (x, y) = ((x as f32 - cx) * share, (y as f32 - cy) * share);
+        self.rotation.map(|r| r[0] * x + r[1] * y + r[2])
     }
 
     /// The pixel of the second frame along q.
+    #[inline(always)]
     pub fn pixel(&self, q: [f32; 3]) -> [f32; 2] {
-        let scale = self.focal / q[2].max(1e-6);
-        [q[0] * scale + self.cx, q[1] * scale + self.cy]
+        let near = self.focal / q[2].max(1e-3);
+        [q[0] * near + self.centre[0], q[1] * near + self.centre[1]]
     }
 
-    /// Where pixel (x, y) goes at inverse depth `rho`.
+    /// Where pixel (x, y) goes at inverse depth ρ.
+    #[inline(always)]
     pub fn target(&self, x: usize, y: usize, rho: f32) -> [f32; 2] {
         let (p, t) = (self.turned(x, y), self.translation);
         self.pixel([p[0] + rho * t[0], p[1] + rho * t[1], p[2] + rho * t[2]])
@@ -69,7 +71,7 @@ impl View {
             self.focal * (t[0] - t[2] * px),
             self.focal * (t[1] - t[2] * py),
         ];
-        ([px * self.focal + self.cx, py * self.focal + self.cy], step)
+        (self.pixel([px, py, 1.0]), step)
     }
 
     /// Pixels of image motion for each unit of ρ: the median of f |m| over the support, at least a millionth.
@@ -104,7 +106,6 @@ impl View {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DVec3;
 
     #[test]
     fn agrees_with_the_camera() {
@@ -113,7 +114,7 @@ mod tests {
             translation: DVec3::new(0.03, -0.02, 0.05),
             rotation: DVec3::new(0.01, 0.02, -0.015),
         };
-        let view = View::new(&camera, &motion);
+        let view = View::of(&camera, &motion);
         for (x, y, rho) in [(10, 20, 0.3), (300, 200, 2.0), (160, 120, 1.0)] {
             let (u, v) = camera
                 .displacement(&motion, x as f64, y as f64, rho)

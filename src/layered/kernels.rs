@@ -1,0 +1,177 @@
+//! Hot kernels by themselves, on two frames of a wavy surface, to be timed; with the feature `bench` only.
+//!
+//! Bytes and flops a pixel are counted as `wasm/bench.rs` has them: planes read or written once, sums, products and
+//! comparisons. Semi-global matching works on bytes, sixteen at a time, where flops are four at a time.
+
+use std::hint::black_box;
+
+use glam::DVec3;
+
+use super::estimate::{NormalEquations, Prior, State, Support, Surface, turn};
+use super::label::{Memory, rigid_residual};
+use super::models::Problem;
+use super::refine::{aggregate, census, volume};
+use super::region::Region;
+use super::scale::Scale;
+use crate::camera::Camera;
+use crate::frames::blur;
+use crate::grid::Grid;
+use crate::linalg::Banded;
+use crate::options::Diffusion;
+use crate::window::Window;
+
+/// Enters each kernel: its name, bytes and flops a pixel, and itself.
+pub(crate) fn enter(
+    frames: [&Grid<f32>; 2],
+    mut add: impl FnMut(&'static str, f64, f64, Box<dyn FnMut()>),
+) {
+    let (width, height) = (frames[0].width(), frames[0].height());
+    // Steps of depth in a sweep, and regions that labels are shared out among.
+    let (steps, regions) = (64, 3);
+    let whole = Window::whole(width, height);
+    let camera = Camera {
+        focal: width as f64,
+        cx: (width as f64 - 1.0) / 2.0,
+        cy: (height as f64 - 1.0) / 2.0,
+    };
+    let scale = || {
+        Scale::new(
+            frames.map(|f| blur(f, 0.7)),
+            frames.map(Grid::clone),
+            camera,
+        )
+    };
+    // As many control points at every size.
+    let spacing = (8 * height / 240).next_power_of_two();
+    let mut surface = Surface::flat(spacing, &whole);
+    for (n, rho) in surface.rho.iter_mut().enumerate() {
+        *rho = 1.0 + 0.2 * (0.7 * n as f32).sin();
+    }
+    let (nodes, bandwidth) = (surface.rho.len(), surface.bandwidth());
+    let state = State {
+        translation: DVec3::new(0.01, -0.005, 0.01),
+        rotation: turn(DVec3::new(0.001, 0.002, -0.002)),
+        surface,
+    };
+    let plane = || Grid::new(width, height, 0.0f32);
+
+    let (own, mut out) = (scale(), plane());
+    add(
+        "spline sampling",
+        8.0,
+        72.0,
+        Box::new(move || {
+            for y in 0..height {
+                let row = out.row_mut(y);
+                for (x, out) in row.iter_mut().enumerate() {
+                    *out = own.second.at(x as f32 + 0.3, y as f32 + 0.4);
+                }
+            }
+            black_box(out.data());
+        }),
+    );
+
+    let (own, labels, known) = (scale(), Grid::new(width, height, 0u8), state.clone());
+    let mut equations = NormalEquations::default();
+    add(
+        "normal equations",
+        17.0,
+        370.0,
+        Box::new(move || {
+            let problem = Problem {
+                scale: &own,
+                level: 0,
+                support: Support::of(&labels, 0, whole),
+                prior: Prior {
+                    mu: 1e5,
+                    diffusion: Diffusion::Anisotropic,
+                    epsilon: 2e-3,
+                },
+                sigma: 2.0,
+            };
+            equations.gather(&problem, &known);
+            black_box(equations.cost);
+        }),
+    );
+
+    let mut band = Banded::default();
+    let mut right = vec![[1.0f32; 6]; nodes];
+    let (n, b) = (nodes as f64, bandwidth as f64);
+    let pixels = (width * height) as f64;
+    let flops = n * b * (b + 24.0) / pixels;
+    add(
+        "banded solve",
+        4.0 * n * b / pixels,
+        flops,
+        Box::new(move || {
+            band.clear(nodes, bandwidth);
+            for i in 0..nodes {
+                band.add(i, i, 8.0);
+                band.add(i, i.saturating_sub(bandwidth), 1.0);
+            }
+            band.factorise();
+            right.fill([1.0; 6]);
+            band.solve(&mut right);
+            black_box(&right);
+        }),
+    );
+
+    let (own, mut residuals) = (scale(), plane());
+    let mut region = Region::new(state.surface.clone());
+    (region.state, region.window) = (state.clone(), Some(whole));
+    add(
+        "data cost",
+        12.0,
+        90.0,
+        Box::new(move || {
+            rigid_residual(&own, 0, &region, &mut residuals);
+            black_box(residuals.data());
+        }),
+    );
+
+    let mut memory = Memory::default();
+    memory.fit(width, height, regions);
+    let labels = Grid::from_fn(width, height, |x, _| (x * regions / width) as u8);
+    // Two boxes both ways are twenty sums, for each region.
+    let (bytes, flops) = (1.0 + 8.0 * regions as f64, 26.0 * regions as f64);
+    add(
+        "outlines of 3 regions",
+        bytes,
+        flops,
+        Box::new(move || {
+            black_box(memory.energy(1.0, &labels));
+        }),
+    );
+
+    let picture = frames[0].clone();
+    add(
+        "census",
+        8.0,
+        72.0,
+        Box::new(move || {
+            black_box(census(&picture));
+        }),
+    );
+
+    let pair = frames.map(Grid::clone);
+    let (view, support) = (state.view(&camera), Grid::new(width, height, true));
+    let sweep = move || volume([&pair[0], &pair[1]], &view, &support, steps, 0.0, 0.03);
+    let (costs, guide) = (sweep(), frames[0].clone());
+    let all = steps as f64;
+    add(
+        "sweep cost, 64 depths",
+        8.0 + all,
+        30.0 * all,
+        Box::new(move || {
+            black_box(sweep());
+        }),
+    );
+    add(
+        "semi-global, 64 depths",
+        4.0 + 3.0 * all,
+        32.0 * all,
+        Box::new(move || {
+            black_box(aggregate(&costs, steps, &guide));
+        }),
+    );
+}

@@ -1,0 +1,161 @@
+//! What a solver has found, put away as bytes and shown again without it.
+
+use js_sys::{Array, Uint8Array};
+use serde::Deserialize;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use super::files::listed;
+use super::solver::{PICTURES, score_table};
+use super::{Frame, Json, Mesh, Picture, Scene, Solver, Word, draw};
+use crate::curves::Contour;
+use crate::error::Error;
+use crate::file::kept::{self, Precision};
+use crate::file::motion::{MotionFile, RegionMotion, Seconds};
+use crate::file::{png, result};
+use crate::frames::FramePair;
+use crate::interpretation::Interpretation;
+use crate::motion_model::MotionModel;
+use crate::view::{self, ViewParams};
+
+/// What is taken from a `Contour`.
+#[derive(Deserialize)]
+struct Outline {
+    label: u8,
+    closed: bool,
+    points: Vec<f32>,
+}
+
+/// What is taken from a `Report`.
+#[derive(Deserialize)]
+struct Account {
+    status: String,
+    iterations: usize,
+    history: Vec<Option<f64>>,
+    seconds: Seconds,
+    regions: Vec<Model>,
+}
+
+/// What is taken from a `RegionReport`.
+#[derive(Deserialize)]
+struct Model {
+    model: MotionModel,
+}
+
+#[wasm_bindgen]
+impl Solver {
+    /// What it has found so far, as bytes for [`Kept`]: all of it, or, if `visible`, as much as an eye sees, which
+    /// takes less once it is compressed.
+    pub fn keep(&self, visible: bool) -> Uint8Array {
+        let precision = if visible {
+            Precision::Visible
+        } else {
+            Precision::Exact
+        };
+        Uint8Array::from(kept::write(self.found(), precision).as_slice())
+    }
+}
+
+/// What a solver had found when it was asked to `keep` it.
+#[wasm_bindgen]
+pub struct Kept {
+    pair: FramePair,
+    found: Interpretation,
+    contours: Vec<Contour>,
+    motion: MotionFile,
+}
+
+#[wasm_bindgen]
+impl Kept {
+    /// Reads the bytes. The frames are those that the solver had; `contours` and `report` are what it gave.
+    #[wasm_bindgen(constructor)]
+    pub fn new(
+        first: &Frame,
+        second: &Frame,
+        bytes: &[u8],
+        contours: &Json,
+        report: &Json,
+    ) -> Result<Kept, Error> {
+        let pair = FramePair::new(first.0.clone(), second.0.clone())?;
+        let found = kept::read(bytes, "the kept result")?;
+        if !found.labels.same_size(&pair.first().rgb) {
+            return Err(Error::FilesDiffer {
+                name: "the frame",
+                size: (pair.width(), pair.height()),
+                than: "the kept result",
+                expected: (found.labels.width(), found.labels.height()),
+            });
+        }
+        let outlines: Vec<Outline> = contours.read("curves")?;
+        let account: Account = report.read("report")?;
+        let models: Vec<_> = account.regions.iter().map(|region| region.model).collect();
+        let motion = MotionFile {
+            regions: RegionMotion::list(&found.motions, &models),
+            status: account.status,
+            iterations: account.iterations,
+            energy: (account.history.iter())
+                .map(|e| e.unwrap_or(f64::NAN))
+                .collect(),
+            seconds: account.seconds,
+        };
+        let contours = outlines.into_iter().map(Outline::contour).collect();
+        Ok(Self {
+            pair,
+            found,
+            contours,
+            motion,
+        })
+    }
+
+    /// A picture of it: one of `viewCatalogue()`, with parameters of its own.
+    pub fn view(&self, kind: &Word, params: &Json) -> Result<Picture, Error> {
+        self.picture(&kind.view()?, &params.view_params()?)
+    }
+
+    /// The relief, with the parameters of a view as JSON.
+    pub fn mesh(&self, params: &Json) -> Result<Mesh, Error> {
+        let params = params.view_params()?;
+        let found = self.found.scaled(&params.scales);
+        Ok(Mesh(view::mesh(self.pair.first(), &found, &params)))
+    }
+
+    /// How far it is from the truth of `scene`: a `ScoreTable` as JSON.
+    pub fn scores(&self, scene: &Scene) -> Result<String, Error> {
+        score_table(&self.found, scene)
+    }
+
+    /// All of it, as an array of files `{name, bytes}`. `params` are those of [`Kept::view`].
+    #[wasm_bindgen(unchecked_return_type = "{ name: string; bytes: Uint8Array<ArrayBuffer> }[]")]
+    pub fn files(&self, params: &Json) -> Result<Array, Error> {
+        let params = params.view_params()?;
+        let found = self.found.scaled(&params.scales);
+        let models: Vec<_> = (self.motion.regions.iter())
+            .filter_map(|region| region.model)
+            .collect();
+        let motion = MotionFile {
+            regions: RegionMotion::list(&found.motions, &models),
+            ..self.motion.clone()
+        };
+        let mut files = result::write(&found, &motion)?;
+        for (kind, name) in PICTURES {
+            files.push((name, png::write_rgba(&self.picture(kind, &params)?.0)?));
+        }
+        Ok(listed(files))
+    }
+}
+
+impl Kept {
+    fn picture(&self, kind: &str, params: &ViewParams) -> Result<Picture, Error> {
+        let frames = [self.pair.first(), self.pair.second()];
+        draw(kind, frames, &self.found, &self.contours, params)
+    }
+}
+
+impl Outline {
+    fn contour(self) -> Contour {
+        Contour {
+            label: self.label,
+            closed: self.closed,
+            points: self.points.as_chunks::<2>().0.to_vec(),
+        }
+    }
+}

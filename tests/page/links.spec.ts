@@ -1,0 +1,105 @@
+/** Links restore what is seen, or say what they cannot; Back and Forward step through it. */
+
+import type { Page } from "@playwright/test";
+
+import { chooseView, expect, open, openScene, read, ready, solve, test, until } from "./helpers";
+
+const setting = (page: Page) =>
+  read(page, ({ source, shapes, camera, options, view, viewParams, scales }) =>
+    JSON.stringify({ source, shapes, camera, options, view, viewParams, scales }),
+  );
+
+test("a shared link restores sequence, curves, settings and view elsewhere", async ({
+  page,
+  browser,
+  baseURL,
+}) => {
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  await open(page, "./#squares");
+  await page.getByRole("button", { name: "Delete curve 2" }).click();
+  await page.getByRole("button", { name: "Add a circle" }).click();
+  await page.getByLabel("Focal length f, px").fill("400");
+  await page.getByLabel("Focal length f, px").press("Enter");
+  await page.getByLabel("Preset").selectOption("paper");
+  await chooseView(page, "Anaglyph");
+  await page.locator("#setting-glasses").selectOption({ index: 1 });
+  await page.getByRole("button", { name: "Share a link" }).click();
+  await expect(page.locator("#share-note")).toHaveText("Link copied.");
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  expect(link.length).toBeLessThan(200);
+  const sent = await setting(page);
+
+  const other = await browser.newPage({ baseURL: baseURL! });
+  await open(other, link);
+  // Curves travel to a tenth of a pixel.
+  const tenths = (text: string) =>
+    text.replaceAll(/-?\d+\.\d+/g, (number) => String(Math.round(10 * Number(number)) / 10));
+  expect(tenths(await setting(other))).toBe(tenths(sent));
+  await expect(other.locator("#message")).toBeHidden();
+  await solve(other);
+  await other.close();
+});
+
+for (const [name, address, words] of [
+  ["curves", "./#blocks/depth?c=c1,2,x", "its curves"],
+  ["a camera", "./#blocks?f=-3", "its camera"],
+  ["options", "./#blocks?c=&o=mu:1e99~nothing:3", "its options"],
+  ["a view", "./#blocks/hologram", "hologram"],
+  ["view settings", "./#blocks/depth?c=&p=palette:__proto__", "how its view is set"],
+  ["escapes", "./#blocks/depth?c=%E0%A4%A&f=%", "its curves and its camera"],
+] as const) {
+  test(`a link with bad ${name} says so, and the rest holds`, async ({ page }) => {
+    const broken: string[] = [];
+    page.on("pageerror", (error) => broken.push(error.message));
+    await open(page, address);
+    await expect(page.locator("#message")).toContainText(words);
+    expect(await read(page, ({ source }) => source)).toMatchObject({ name: "blocks" });
+    await expect(page.getByRole("button", { name: "Run", exact: true })).toBeEnabled();
+    expect(broken).toEqual([]);
+  });
+}
+
+test("a curve that the core refuses is said, and the sequence opens without", async ({ page }) => {
+  await open(page, "./#blocks?c=c9000,9000,5");
+  await expect(page.locator("#message")).toContainText("outside");
+  expect(await read(page, ({ shapes }) => shapes.length)).toBe(2);
+});
+
+test("a link to what is not there says so and shows something", async ({ page }) => {
+  await open(page, "./#atlantis/depth");
+  await expect(page.locator("#message")).toContainText("atlantis");
+  await page.getByRole("button", { name: "Dismiss" }).click();
+  await page.evaluate(() => (location.hash = "#own-0123456789abcdef/depth"));
+  await expect(page.locator("#message")).toContainText("not kept on this device");
+});
+
+test("Back and Forward step through sequences and views", async ({ opened: page }) => {
+  await chooseView(page, "Labels");
+  await openScene(page, "squares");
+  await ready(page);
+  await expect(page).toHaveURL(/#squares\/curves$/);
+  await page.goBack();
+  await until(page, ({ source, view, busy }) => {
+    return (
+      busy === null && source?.kind === "scene" && source.name === "blocks" && view === "labels"
+    );
+  });
+  await page.goBack();
+  await until(page, ({ view }) => view === "curves");
+  await page.goForward();
+  await until(page, ({ view }) => view === "labels");
+  await page.goForward();
+  await until(page, ({ source, busy }) => {
+    return busy === null && source?.kind === "scene" && source.name === "squares";
+  });
+});
+
+test("what a link replaces can be had again", async ({ opened: page }) => {
+  await page.getByRole("button", { name: "Delete curve 2" }).click();
+  await until(page, ({ memory }) => (memory?.length ?? 0) > 0);
+  await page.waitForTimeout(700);
+  await page.evaluate(() => (location.hash = "#blocks/curves?c="));
+  await until(page, ({ shapes, busy }) => shapes.length === 0 && busy === null);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await until(page, ({ shapes }) => shapes.length === 1);
+});

@@ -1,0 +1,144 @@
+/**
+ * The address of the page names the pair and the view: Back and Forward step through them, and a link opens what it
+ * tells.
+ */
+
+import { announce, byId } from "../dom";
+import { open, openScene } from "../session";
+import { store } from "../store";
+import type { Source } from "../worker/protocol";
+import { recall } from "./database";
+import { settingsOf } from "./held";
+import { addressOf, linkOf, targetOf, type Target } from "./link";
+import { isOwn, nameOf } from "./names";
+import { flush, resume } from "./remember";
+
+/** The address that is shown, or about to be. */
+let shown = "";
+
+export function mountAddress(): void {
+  // Links within the page scroll, and say nothing of pairs.
+  addEventListener("popstate", () => void follow());
+  store.watch(
+    ({ source, view, opening, frames, playing }) => [source, view, opening, frames, playing],
+    ({ source, view, opening, playing }) => {
+      if (source && !opening && !playing) void tell(source, view);
+    },
+  );
+  byId("share").addEventListener("click", () => void share());
+  store.watch(
+    ({ frames }) => [frames],
+    ({ frames }) => {
+      byId<HTMLButtonElement>("share").disabled = !frames;
+    },
+  );
+}
+
+async function tell(source: Source, view: string): Promise<void> {
+  const address = addressOf(await nameOf(source), view);
+  const { state } = store;
+  // Something else may have been opened while the name was made.
+  if (state.source !== source || state.view !== view || address === shown) return;
+  const first = shown === "";
+  shown = address;
+  if (following || first) history.replaceState(null, "", address);
+  else history.pushState(null, "", address);
+}
+
+/** While an address is followed, what it leads to makes no new one. */
+let following = false;
+
+/** Opens what the address asks for; whether it asked for anything that is there. */
+export async function follow(): Promise<boolean> {
+  const { catalogues } = store.state;
+  const target = catalogues && targetOf(location.hash, catalogues);
+  if (!target) return false;
+  following = true;
+  try {
+    return await lead(target);
+  } finally {
+    // Names are made in between.
+    setTimeout(() => (following = false), 50);
+  }
+}
+
+async function lead(target: Target): Promise<boolean> {
+  const { name, view, setting, useless } = target;
+  const { source, catalogues } = store.state;
+  const isOpen = source !== null && (await nameOf(source)) === name;
+  const scene = catalogues?.scenes.some((one) => one.name === name);
+  let there = isOpen;
+  if (isOpen && !setting) {
+    if (view) store.update({ view });
+  } else if (setting) {
+    there = await exactly(target);
+  } else {
+    there = (await resume(name, view ?? undefined)) || (scene === true && (await openScene(name)));
+    if (there && view) store.update({ view });
+  }
+  const complaint = complaintOf(name, there, scene === true, useless);
+  if (complaint) store.update({ message: complaint });
+  return there;
+}
+
+function complaintOf(name: string, there: boolean, scene: boolean, useless: string[]) {
+  if (useless.length > 0) {
+    const [last, ...others] = useless.toReversed();
+    const list = others.length > 0 ? `${others.reverse().join(", ")} and ${last}` : last;
+    return `The link has a part that cannot be used (${list}). The rest of it holds.`;
+  }
+  if (there || scene) return null;
+  return isOwn(name)
+    ? "The link is to frames that are not kept on this device. Open the two files, then follow it again."
+    : `The link is to a sequence called “${name.slice(0, 40)}”, which there is not.`;
+}
+
+/** The pair with exactly what the link tells; what was kept of it can be gone back to. */
+async function exactly({ name, view, setting }: Target): Promise<boolean> {
+  await flush();
+  const kept = await recall(name).catch(() => null);
+  const scene = store.state.catalogues?.scenes.find((one) => one.name === name);
+  const open_ = store.state.source;
+  const present = open_ && (await nameOf(open_)) === name ? open_ : null;
+  const source = kept?.source ?? present;
+  const wanted = { ...setting, ...(view ? { view } : {}) };
+  const done = source
+    ? await open({ ...source }, "Opening the link", wanted)
+    : scene !== undefined && (await openScene(name, wanted));
+  if (done && kept) {
+    const { setting: before } = kept.session;
+    const { result } = kept;
+    if (settingsOf(before) === settingsOf(store.state)) return done;
+    const found = result && result.settings === settingsOf(before) ? result.found : null;
+    const held = found && {
+      revision: -1,
+      settings: result!.settings,
+      ready: Promise.resolve(found),
+      found,
+    };
+    const { shapes, camera, options, scales } = before;
+    store.update({ past: [{ shapes, camera, options, scales, held }], future: [] });
+  }
+  return done;
+}
+
+async function share(): Promise<void> {
+  const { source } = store.state;
+  if (!source) return;
+  const link = new URL(linkOf(await nameOf(source), store.state), location.href).href;
+  const own = source.kind === "files";
+  let copied = true;
+  try {
+    await navigator.clipboard.writeText(link);
+  } catch {
+    // Not allowed, or no clipboard: the address bar has it to copy from.
+    copied = false;
+    shown = new URL(link).hash;
+    history.replaceState(null, "", link);
+  }
+  const what = copied ? "Link copied." : "The link is in the address bar, to copy from there.";
+  const limits = own ? " It does not carry your frames: it works where they are kept." : "";
+  byId("share-note").textContent = what + limits;
+  announce(what + limits);
+  setTimeout(() => (byId("share-note").textContent = ""), 6000);
+}

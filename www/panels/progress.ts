@@ -1,0 +1,68 @@
+/** What is being done in one sentence, a bar, and the time that is left. */
+
+import { byId } from "../dom";
+import { paceOf } from "../pace";
+import { estimate, type PassTime } from "../progress";
+import { store, type State } from "../store";
+import { remaining } from "../wording";
+import type { Report } from "../worker/protocol";
+
+let passes: PassTime[] = [];
+let at = 0;
+let seen = 0;
+
+export function mountProgress(): void {
+  store.watch(
+    ({ running }) => [running],
+    ({ running, report }) => {
+      if (!running) return;
+      passes = [];
+      at = performance.now();
+      seen = report?.iterations ?? 0;
+    },
+  );
+  store.watch(
+    ({ report, running, busy, playing }) => [report, running, busy, playing],
+    (state) => {
+      if (state.running && state.report) count(state.report);
+      show(state);
+    },
+  );
+}
+
+/** The screen may miss passes: those are taken to have been alike. */
+function count({ iterations, level }: Report): void {
+  // A run that starts over counts from one again.
+  if (iterations < seen) [passes, seen] = [[], 0];
+  const made = iterations - seen;
+  if (made === 0) return;
+  const now = performance.now();
+  for (let i = 0; i < made; i++) passes.push({ level, time: (now - at) / made });
+  [at, seen] = [now, iterations];
+}
+
+function show(state: Readonly<State>): void {
+  const { running, busy, report, playing } = state;
+  const bar = byId<HTMLProgressElement>("progress");
+  bar.hidden = !running && (busy === null || playing);
+  const doing = byId("doing");
+  if (!running || !report) {
+    bar.removeAttribute("value");
+    doing.textContent = "";
+    return;
+  }
+  const { done, left } = estimate(report, passes, paceOf(state));
+  // It does not go back when an estimate was too bright.
+  const before = passes.length > 1 ? bar.value : 0;
+  bar.value = Math.max(before, Math.min(0.99, done));
+  doing.textContent = `${task(report, state)} ${remaining(left)}`;
+}
+
+function task({ level, levels, iterations }: Report, { options, shapes }: Readonly<State>): string {
+  if (options.preset === "paper") {
+    return "Motion, depth and curves take a step each, in turn.";
+  }
+  const whose = shapes.length > 0 ? "outlines, motion and depth" : "motion and depth";
+  if (level > 0) return `Finding ${whose} on small copies, scale ${levels - level} of ${levels}.`;
+  return iterations === 0 ? "Starting." : `Refining ${whose} at full size.`;
+}

@@ -1,0 +1,78 @@
+/**
+ * Plays a recording on the stage, pass by pass, while the core loads, and hands over to it: the last pass is a result
+ * like any other then, and every view shows it.
+ */
+
+import { present, recorded } from "../memory/history";
+import { open, restore } from "../session";
+import { store } from "../store";
+import { sceneOf } from "../scenes";
+import { nameOf } from "../views";
+import type { Source } from "../worker/protocol";
+import { bitmapOf, fetchRecording, type Pass, type Recording } from "./recording";
+
+/** Between two passes, milliseconds. */
+const BEAT_MS = 220;
+
+const still = matchMedia("(prefers-reduced-motion: reduce)");
+
+/** Shows a recording from its first picture on; resolves when the last is there. */
+export async function play(recording: Recording): Promise<void> {
+  const source = sceneOf(recording.name);
+  const { title, lesson, width, height, camera, shapes } = recording;
+  store.update({
+    ...{ source, title, lesson, width, height, camera, shapes, truth: true },
+    ...{ view: "depth", started: true, playing: true },
+  });
+  await showAll(recording, source);
+}
+
+async function showAll({ passes }: Recording, source: Source): Promise<void> {
+  const shown = still.matches ? passes.slice(-1) : passes.filter(({ picture }) => picture);
+  for (const [i, pass] of shown.entries()) {
+    if (i > 0) await new Promise((next) => setTimeout(next, BEAT_MS));
+    // Somebody has opened or started something else meanwhile.
+    if (!store.state.playing || store.state.running || store.state.source !== source) return;
+    await show(pass);
+  }
+}
+
+async function show({ report, contours, picture }: Pass): Promise<void> {
+  if (!picture) return store.update({ report, contours });
+  const bitmap = await bitmapOf(picture);
+  // Only depth was recorded.
+  const pictured = nameOf({ ...store.state, view: "depth" });
+  store.update({ report, contours, pictures: [bitmap], pictured });
+}
+
+/** Plays the recording of the sequence that is open; what was there is a step back. */
+export async function playAgain(source: Source): Promise<void> {
+  if (source.kind !== "scene") return;
+  const recording = await fetchRecording(source.name).catch(() => null);
+  const { running, opening } = store.state;
+  if (!recording || running || opening || store.state.source !== source) return;
+  const { camera, shapes, found } = recording;
+  store.update({
+    ...recorded(present()),
+    ...{
+      camera,
+      shapes,
+      options: {},
+      scales: [],
+      selected: null,
+      finding: null,
+      focalFinding: null,
+    },
+    ...{ view: "depth", started: true, playing: true, message: null },
+  });
+  await showAll(recording, source);
+  const interrupted = store.state.running || store.state.source !== source;
+  store.update({ playing: false });
+  if (!interrupted) await restore(found);
+}
+
+/** Opens the recorded sequence with the recorded result, once the core is there. */
+export function handOver({ camera, shapes, found }: Recording, source: Source): Promise<boolean> {
+  const setting = { camera, shapes, options: {} };
+  return open(source, "Rendering the sequence", setting, found);
+}
