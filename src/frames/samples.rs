@@ -154,8 +154,12 @@ impl Sample for u16 {
 impl Sample for f32 {
     const STEP: f32 = 0.0;
 
+    // Not-a-number is black.
     fn level(self) -> f32 {
-        255.0 * self
+        if self.is_nan() {
+            return 0.0;
+        }
+        255.0 * self.clamp(0.0, 1.0)
     }
 }
 
