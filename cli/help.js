@@ -10,27 +10,33 @@ const WIDTH = 96;
 /** @param {Core} core */
 export function help(core) {
   /** @type {import("./index.js").Limits} */
-  const { minSide, maxSide, maxCurves } = JSON.parse(core.limits());
+  const { minSide, maxPixels, maxCurves } = JSON.parse(core.limits());
   /** @type {import("./index.js").SceneEntry[]} */
   const scenes = JSON.parse(core.sceneCatalogue());
   const all = presets(core);
   return `Which parts of a film move, how, and how deep they are, from two of its frames.
 
 Usage:
-  relievo FRAME1 FRAME2 --focal F [options]
+  relievo FRAME1 FRAME2 [--focal F] [options]
+  relievo FILE [--frames I,J | --fields] [--focal F] [options]
   relievo scene NAME [--size WxH] [--out DIR]
   relievo scenes
   relievo score FOUND TRUTH [--json]
 
 Coordinates are pixels, (0, 0) the centre of the top-left pixel. Frames are PNG, JPEG, PNM, WebP,
-BMP or TIFF, from ${minSide}×${minSide} to ${maxSide}×${maxSide} pixels.
+BMP, GIF or TIFF, from ${minSide}×${minSide} pixels to ${maxPixels / 1e6} megapixels.
 
 Frames and curves:
 ${table([
   [
     "--focal F",
-    "focal length in pixels; auto looks for it in the frames and takes their longer side where they do not tell it",
+    "focal length in pixels; exif, the default, takes that of the photos' EXIF data; auto looks for it in the frames and takes their longer side where they do not tell it",
   ],
+  [
+    "--frames I,J",
+    "which two frames of a FILE that holds several, from 1 (1,2): an animation, views, pages",
+  ],
+  ["--fields", "the two fields of an interlaced FILE, half as large, even rows first"],
   ["--centre X,Y", "principal point; the frame's centre when left out"],
   ["--circle X,Y,R", `a curve to start from; up to ${maxCurves} curves, each on one moving object`],
   ["--polygon X1,Y1,X2,Y2,X3,Y3,…", "a curve to start from"],
@@ -47,7 +53,8 @@ ${settings(core, all)}
 
 Results: labels.png (0 background, k the k-th curve), depth.pfm, flow.flo, motion.json,
 occlusion.png, and pictures. A scene has the first five for its truth, frame0.png, frame1.png and
-scene.json, in a folder of its name unless --out says otherwise. score prints JSON with --json.
+scene.json, in a folder of its name unless --out says otherwise. score compares what both folders
+have, or two files (.flo, KITTI's 16-bit .png of flow, labels, .pfm), and prints JSON with --json.
 
 Sequences:
 ${table(scenes.map(({ name, title }) => [name, title]))}

@@ -1,7 +1,7 @@
-// relievo score FOUND TRUTH: how far one folder of results is from another.
+// relievo score FOUND TRUTH: how far one folder of results, or one file, is from another.
 
-import { existsSync } from "node:fs";
-import { join } from "node:path";
+import { existsSync, statSync } from "node:fs";
+import { extname, join } from "node:path";
 
 import { InputError, UsageError } from "./errors.js";
 import { read } from "./files.js";
@@ -17,16 +17,22 @@ export function score(core, words) {
   const { values, operands } = parse(words, { json: { type: "boolean" } });
   const [found, truth] = operands;
   if (found === undefined || truth === undefined || operands.length > 2) {
-    throw new UsageError("two folders are needed: relievo score FOUND TRUTH");
+    throw new UsageError("two folders or files are needed: relievo score FOUND TRUTH");
   }
   const scores = JSON.parse(load(core, found).scores(load(core, truth)));
   if (values["json"]) return console.log(JSON.stringify(scores));
   const number = (/** @type {number | null} */ x, digits = 3) => x?.toFixed(digits) ?? "–";
   const percent = (/** @type {number | null} */ x) =>
     x === null ? "–" : `${number(100 * x, 1)} %`;
-  console.log(`flow           AEE ${number(scores.aee)} px, AAE ${number(scores.aae, 2)}°`);
-  console.log(`labels wrong   ${percent(scores.labels_wrong)}`);
+  if (scores.aee !== null) {
+    console.log(`flow           AEE ${number(scores.aee)} px, AAE ${number(scores.aae, 2)}°`);
+  }
+  if (scores.labels_wrong !== null) {
+    console.log(`labels wrong   ${percent(scores.labels_wrong)}`);
+  }
   scores.iou.forEach((/** @type {number | null} */ iou, /** @type {number} */ k) => {
+    const known = [iou, scores.depth_error[k], scores.translation_angle[k]];
+    if (known.every((score) => score === null)) return;
     const name = k === 0 ? "background" : `curve ${k}`;
     const depth = `depth ${percent(scores.depth_error[k])} (flat ${percent(scores.flat_depth_error[k])})`;
     const motion = `T off by ${number(scores.translation_angle[k], 1)}°`;
@@ -34,23 +40,39 @@ export function score(core, words) {
   });
 }
 
+/** What is read of a folder, by the names that a solve and a sequence give them. */
+const NAMES = ["labels.png", "depth.pfm", "flow.flo", "motion.json", "occlusion.png"];
+
 /**
+ * What there is at a path: a folder of results, or one file of flow, labels or depth.
  * @param {Core} core
- * @param {string} folder
+ * @param {string} path
  */
-function load(core, folder) {
-  const file = (/** @type {string} */ name) => read(join(folder, name));
-  const occlusion = join(folder, "occlusion.png");
+function load(core, path) {
+  const folder = statSync(path, { throwIfNoEntry: false })?.isDirectory() ?? false;
+  const files = folder
+    ? NAMES.filter((name) => existsSync(join(path, name))).map((name) => ({
+        name,
+        bytes: read(join(path, name)),
+      }))
+    : [{ name: nameOf(path), bytes: read(path) }];
   try {
-    return new core.SavedResult(
-      file("labels.png"),
-      file("depth.pfm"),
-      file("flow.flo"),
-      file("motion.json").toString("utf8"),
-      existsSync(occlusion) ? read(occlusion) : undefined,
-    );
+    return new core.SavedResult(files);
   } catch (error) {
     if (Object(error).name !== "InputError") throw error;
-    throw new InputError(`${folder}: ${Object(error).message}`);
+    throw new InputError(`${path}: ${Object(error).message}`);
   }
+}
+
+/**
+ * The name that a file by itself would have in a folder. A PNG of 16 bits is KITTI's flow, one of 8 labels.
+ * @param {string} path
+ */
+function nameOf(path) {
+  const ending = extname(path).toLowerCase();
+  if (ending === ".flo") return "flow.flo";
+  if (ending === ".pfm") return "depth.pfm";
+  if (ending === ".json") return "motion.json";
+  // Its header has the bits of a sample there.
+  return ending === ".png" && read(path)[24] === 16 ? "flow.png" : "labels.png";
 }

@@ -1,10 +1,11 @@
-// relievo FRAME1 FRAME2: the whole method on two frames, results into a folder.
+// relievo FRAME1 FRAME2, or one FILE that holds both: the whole method on two frames, results into a folder.
 
 import { existsSync } from "node:fs";
 import { join } from "node:path";
 
 import { InputError, UsageError } from "./errors.js";
-import { prepare, read, SCENE, write } from "./files.js";
+import { prepare, SCENE, write } from "./files.js";
+import { open } from "./frames.js";
 import { catalogue, given, known } from "./options.js";
 import { progress } from "./progress.js";
 import { numbers, parse } from "./words.js";
@@ -18,6 +19,8 @@ const OWN = /** @type {const} */ ({
   circle: { type: "string", multiple: true },
   polygon: { type: "string", multiple: true },
   auto: { type: "boolean" },
+  frames: { type: "string" },
+  fields: { type: "boolean" },
   preset: { type: "string" },
   iterations: { type: "string" },
   out: { type: "string" },
@@ -29,15 +32,12 @@ const OWN = /** @type {const} */ ({
  */
 export function solve(core, words) {
   const { values, operands } = parse(words, { ...known(core), ...OWN });
-  const [first, second] = framesOf(operands);
   const asked = cameraOf(values);
   const drawn = shapesOf(words, values);
   const options = given(core, { "max-passes": values["iterations"], ...values });
   if (values["preset"] !== undefined) options["preset"] = values["preset"];
 
-  const frames = /** @type {[Frame, Frame]} */ (
-    [first, second].map((path) => core.Frame.decode(read(path), path))
-  );
+  const { frames, said } = open(core, operands, values);
   const { camera, focal } = seenBy(core, frames, asked);
   const seen = JSON.stringify(camera);
   const found = values["auto"] ? JSON.parse(core.findCurves(...frames, seen)) : null;
@@ -51,6 +51,7 @@ export function solve(core, words) {
   prepareResults(out);
   run(solver, mostPasses(core, options));
   const files = solver.files("{}");
+  if (said) console.log(said);
   if (focal) console.log(focal);
   if (found) announce(found);
   summarise(JSON.parse(solver.report()));
@@ -75,39 +76,46 @@ function prepareResults(out) {
 }
 
 /**
- * @param {string[]} operands
- * @returns {[string, string]}
+ * What the command line says of the camera: f, or how to come by it.
+ * @param {Record<string, string>} values
  */
-function framesOf(operands) {
-  const [first, second, third] = operands;
-  if (first === undefined || second === undefined || third !== undefined) {
-    const count = ["none was", "one was"][operands.length] ?? `${operands.length} were`;
-    throw new UsageError(`two frames are needed, ${count} given: relievo FRAME1 FRAME2 --focal F`);
-  }
-  return [first, second];
-}
-
-/** @param {Record<string, string>} values */
 function cameraOf({ focal, centre }) {
-  if (focal === undefined) {
-    throw new UsageError(
-      "the focal length is missing; give it in pixels with --focal F, or have it looked for with --focal auto",
-    );
-  }
-  const [f] = focal === "auto" ? [] : numbers("focal", "F or auto", focal, (count) => count === 1);
-  if (centre === undefined) return { focal: f };
+  const way = focal === undefined || focal === "auto" || focal === "exif";
+  const [f] = way ? [] : numbers("focal", "F, exif or auto", focal, (count) => count === 1);
+  if (centre === undefined) return { focal: f, way: focal };
   const [cx, cy] = numbers("centre", "X,Y", centre, (count) => count === 2);
-  return { focal: f, cx, cy };
+  return { focal: f, way: focal, cx, cy };
 }
 
 /**
- * The camera with its focal length, looked for where none was given, and what to say of that.
+ * The camera with its focal length, from the frames where none was given, and what to say of that.
  * @param {Core} core
  * @param {[Frame, Frame]} frames
- * @param {{ focal: number | undefined, cx?: number, cy?: number }} asked
+ * @param {{ focal: number | undefined, way: string | undefined, cx?: number, cy?: number }} asked
  */
-function seenBy(core, frames, asked) {
+function seenBy(core, frames, { way, ...asked }) {
   if (asked.focal !== undefined) return { camera: asked, focal: null };
+  if (way === "auto") return foundBy(core, frames, asked);
+  const lens = frames.map((frame) => JSON.parse(frame.lens())).find((lens) => lens !== null);
+  if (lens) {
+    const f = Number(lens.focal.toPrecision(6));
+    const focal = `focal length ${f} pixels (${lens.text}): --focal ${f}`;
+    return { camera: { ...asked, focal: f }, focal };
+  }
+  const ways = "give it in pixels with --focal F, or have it looked for with --focal auto";
+  if (way === "exif") throw new InputError(`the frames' EXIF data tell no focal length; ${ways}`);
+  throw new UsageError(
+    `the focal length is missing, and the frames' EXIF data do not tell it; ${ways}`,
+  );
+}
+
+/**
+ * The camera with a focal length looked for in the frames.
+ * @param {Core} core
+ * @param {[Frame, Frame]} frames
+ * @param {{ cx?: number, cy?: number }} asked
+ */
+function foundBy(core, frames, asked) {
   const guess = { ...asked, focal: Math.max(frames[0].width, frames[0].height) };
   const found = JSON.parse(core.findFocal(...frames, JSON.stringify(guess)));
   if (!found) {

@@ -2,11 +2,11 @@
 //! what to do about it.
 
 use crate::camera::{FARTHEST_CENTRE, FOCAL_RANGE};
-use crate::frames::{MAX_SIDE, MIN_SIDE};
+use crate::frames::{MAX_PIXELS, MAX_SIDE, MIN_SIDE};
 use crate::options::MAX_CURVES;
 
 const FORMATS: &str = if cfg!(feature = "decoders") {
-    "PNG, JPEG, PNM, WebP, BMP and TIFF are"
+    "PNG, JPEG, PNM, WebP, BMP, GIF and TIFF are"
 } else {
     "PNG alone is"
 };
@@ -45,6 +45,19 @@ pub enum Error {
         /// Its height.
         height: usize,
     },
+    /// A picture of too many pixels.
+    #[error(
+        "{name} is {width}×{height} pixels; at most {most} megapixels can be worked on: crop or resize it",
+        most = MAX_PIXELS / 1_000_000
+    )]
+    Pixels {
+        /// The picture, as the user knows it.
+        name: String,
+        /// Its width.
+        width: usize,
+        /// Its height.
+        height: usize,
+    },
     /// A picture whose header claims more than this machine can address.
     #[error(
         "{name} claims to be larger than can be unpacked here; both sides must lie between {MIN_SIDE} and {MAX_SIDE} pixels: crop or resize it"
@@ -52,18 +65,6 @@ pub enum Error {
     TooLarge {
         /// The picture, as the user knows it.
         name: String,
-    },
-    /// Frames that a way of solving has no memory for.
-    #[error(
-        "frames of {width}×{height} pixels need more memory than there is when solved coarse to fine, which takes at most {most} megapixels here: make both smaller, or choose the preset paper"
-    )]
-    Memory {
-        /// Their width.
-        width: usize,
-        /// Their height.
-        height: usize,
-        /// What fits, in millions of pixels.
-        most: usize,
     },
     /// Depth asked for where regions move as planes still.
     #[error(
@@ -111,17 +112,29 @@ pub enum Error {
     },
     /// Files of one result that are of different sizes.
     #[error(
-        "{name} is {}×{}, labels.png {}×{} pixels; all files must be those of one result",
-        .size.0, .size.1, .labels.0, .labels.1
+        "{name} is {}×{}, {than} {}×{} pixels; all files must be those of one result",
+        .size.0, .size.1, .expected.0, .expected.1
     )]
     FilesDiffer {
         /// The file that differs.
         name: &'static str,
         /// Its width and height.
         size: (usize, usize),
-        /// Width and height of labels.png.
-        labels: (usize, usize),
+        /// The file that it differs from.
+        than: &'static str,
+        /// Width and height of that.
+        expected: (usize, usize),
     },
+    /// Files none of which can be scored.
+    #[error(
+        "there is nothing to score: give a folder with labels.png, flow.flo, depth.pfm or motion.json, or one such file"
+    )]
+    NothingToScore,
+    /// Two results that have nothing in common.
+    #[error(
+        "the two have nothing in common that could be compared; both must have labels, flow, depth or motions"
+    )]
+    NothingShared,
     /// Motions that are not those of the regions.
     #[error(
         "motion.json describes regions {described:?}, labels.png goes up to {last}; it must describe each from 0 to {last} once"

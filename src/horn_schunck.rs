@@ -20,13 +20,16 @@ use crate::error::Error;
 use crate::frames::FramePair;
 use crate::grid::Grid;
 use crate::interpretation::{Flow, Interpretation};
+use crate::options::Detail;
+use crate::working::{factor, upsampled};
 
 /// A smoothness weight for ordinary film, in grey levels per pixel.
 pub const ALPHA: f32 = 10.0;
 /// Sweeps after which ordinary film hardly changes.
 pub const SWEEPS: usize = 300;
 
-/// What Horn–Schunck makes of `pair`: image motion, and nothing known of anything else.
+/// What Horn–Schunck makes of `pair`, worked on at the size of [`Detail::Normal`]: image motion, and nothing known of
+/// anything else.
 ///
 /// ```
 /// use relievo::{Frame, FramePair, Grid, horn_schunck};
@@ -44,6 +47,14 @@ pub const SWEEPS: usize = 300;
 /// Those of [`Camera::centred`].
 pub fn interpreted(pair: &FramePair) -> Result<Interpretation, Error> {
     let (width, height) = (pair.width(), pair.height());
+    let n = factor(width, height, Detail::Normal);
+    if n > 1 {
+        let small = pair.shrunk(n);
+        let found = interpreted(&small)?;
+        let colours = [&small, pair].map(|pair| &pair.first().rgb);
+        let camera = Camera::centred(width as f64, width, height)?;
+        return Ok(upsampled(&found, colours[0], colours[1], n as f32, camera));
+    }
     Ok(Interpretation {
         camera: Camera::centred(width as f64, width, height)?,
         labels: Grid::new(width, height, 0),

@@ -47,7 +47,7 @@
 //!
 //! # Features
 //!
-//! - `decoders` (on): frames from JPEG, PNM, WebP, BMP and TIFF files; without it from PNG files only.
+//! - `decoders` (on): frames from JPEG, PNM, WebP, BMP, GIF and TIFF files, films and EXIF data; without it from PNG files only.
 //! - `scenes` (on): [`scene`], the built-in sequences with their truth.
 //! - `javascript`: what JavaScript sees of it, for `wasm32-unknown-unknown` only.
 //!
@@ -89,6 +89,7 @@ mod spread;
 mod srgb;
 pub mod view;
 pub mod window;
+pub mod working;
 
 pub use camera::{Camera, RigidMotion};
 pub use curves::{Contour, Shape};

@@ -9,7 +9,9 @@
 use glam::DVec3;
 use serde::Serialize;
 
+use crate::camera::RigidMotion;
 use crate::error::Error;
+use crate::file::parts::Parts;
 use crate::grid::Grid;
 use crate::interpretation::{Flow, Interpretation};
 
@@ -53,36 +55,153 @@ pub struct Scores {
     pub rotation_error: Vec<Option<f64>>,
 }
 
+/// [`Scores`] of what there is of two results; null where one of the two lacks what is compared.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
+pub struct PartScores {
+    /// Mean end-point error of the flow in pixels.
+    pub aee: Option<f64>,
+    /// Mean angular error of the flow in degrees.
+    pub aae: Option<f64>,
+    /// Share of pixels with a wrong label, 0–1.
+    pub labels_wrong: Option<f64>,
+    /// As in [`Scores`]; one region where the truth has no labels.
+    pub iou: Vec<Option<f64>>,
+    /// As in [`Scores`].
+    pub depth_error: Vec<Option<f64>>,
+    /// As in [`Scores`].
+    pub flat_depth_error: Vec<Option<f64>>,
+    /// As in [`Scores`].
+    pub translation_angle: Vec<Option<f64>>,
+    /// As in [`Scores`].
+    pub rotation_error: Vec<Option<f64>>,
+}
+
 /// Scores what was found against the truth.
 ///
 /// # Errors
 /// [`Error::TruthDiffers`] when the two are of different sizes.
 pub fn compare(found: &Interpretation, truth: &Interpretation) -> Result<Scores, Error> {
-    same_size(&found.labels, &truth.labels)?;
-    let flow = compare_flow(&found.flow, &truth.flow, None)?;
+    let scores = compare_parts(&Compared::of(found), &Compared::of(truth))?;
+    Ok(Scores {
+        aee: scores.aee,
+        aae: scores.aae,
+        labels_wrong: scores.labels_wrong.unwrap_or(0.0),
+        iou: scores.iou,
+        depth_error: scores.depth_error,
+        flat_depth_error: scores.flat_depth_error,
+        translation_angle: scores.translation_angle,
+        rotation_error: scores.rotation_error,
+    })
+}
+
+/// Scores what there is of a result against what there is of a truth.
+///
+/// # Errors
+/// [`Error::TruthDiffers`] when the two are of different sizes, [`Error::NothingShared`] when they have nothing in
+/// common.
+pub fn compare_known(found: &Parts, truth: &Parts) -> Result<PartScores, Error> {
+    let scores = compare_parts(&Compared::from(found), &Compared::from(truth))?;
+    let lists = [
+        &scores.depth_error,
+        &scores.translation_angle,
+        &scores.rotation_error,
+    ];
+    let nothing = scores.aee.is_none()
+        && scores.labels_wrong.is_none()
+        && lists.iter().all(|list| list.iter().all(Option::is_none));
+    if nothing {
+        return Err(Error::NothingShared);
+    }
+    Ok(scores)
+}
+
+/// What is compared of a result.
+struct Compared<'a> {
+    labels: Option<&'a Grid<u8>>,
+    depth: Option<&'a Grid<f32>>,
+    flow: Option<&'a Flow>,
+    occluded: Option<&'a Grid<u8>>,
+    confidence: Option<&'a Grid<f32>>,
+    motions: Option<&'a [RigidMotion]>,
+}
+
+impl<'a> Compared<'a> {
+    fn of(all: &'a Interpretation) -> Self {
+        Self {
+            labels: Some(&all.labels),
+            depth: Some(&all.depth),
+            flow: Some(&all.flow),
+            occluded: Some(&all.occluded),
+            confidence: Some(&all.confidence),
+            motions: Some(&all.motions),
+        }
+    }
+
+    fn from(parts: &'a Parts) -> Self {
+        Self {
+            labels: parts.labels.as_ref(),
+            depth: parts.depth.as_ref(),
+            flow: parts.flow.as_ref(),
+            occluded: parts.occluded.as_ref(),
+            confidence: parts.confidence.as_ref(),
+            motions: parts.motions.as_deref(),
+        }
+    }
+
+    fn regions(&self) -> usize {
+        let last = |labels: &Grid<u8>| labels.data().iter().copied().max().map_or(0, usize::from);
+        let labelled = self.labels.map_or(1, |labels| last(labels) + 1);
+        self.motions
+            .map_or(labelled, |motions| motions.len().max(labelled))
+    }
+}
+
+fn compare_parts(found: &Compared, truth: &Compared) -> Result<PartScores, Error> {
+    let flow = match (found.flow, truth.flow) {
+        (Some(found), Some(truth)) => compare_flow(found, truth, None)?,
+        _ => None,
+    };
+    let labels = both(found.labels, truth.labels)?;
+    let depth = both(found.depth, truth.depth)?;
     let regions = 0..truth.regions();
-    let pairs = || found.labels.data().iter().zip(truth.labels.data());
+    let pairs = || {
+        labels
+            .into_iter()
+            .flat_map(|(a, b)| a.data().iter().zip(b.data()))
+    };
     let wrong = pairs().filter(|(a, b)| a != b).count();
     let iou = |k: usize| {
         let is = |label: &u8| usize::from(*label) == k;
-        let both = pairs().filter(|(a, b)| is(a) && is(b)).count();
+        let shared = pairs().filter(|(a, b)| is(a) && is(b)).count();
         let either = pairs().filter(|(a, b)| is(a) || is(b)).count();
-        (either > 0).then(|| both as f64 / either as f64)
+        (either > 0).then(|| shared as f64 / either as f64)
+    };
+    // Where depth can be compared at all.
+    let own = |i: usize, k: usize| truth.labels.is_none_or(|l| usize::from(l.data()[i]) == k);
+    let seen = |i: usize| {
+        truth.confidence.is_none_or(|c| c.data()[i] > 0.0)
+            && truth.occluded.is_none_or(|o| o.data()[i] == 0)
     };
     let depths = |k: usize| -> Vec<(f64, f64)> {
-        (0..truth.labels.len())
-            .filter(|&i| usize::from(truth.labels.data()[i]) == k)
-            .filter(|&i| truth.confidence.data()[i] > 0.0 && truth.occluded.data()[i] == 0)
-            .map(|i| (found.depth.data()[i].into(), truth.depth.data()[i].into()))
+        let Some((a, b)) = depth else {
+            return Vec::new();
+        };
+        (0..b.len())
+            .filter(|&i| own(i, k) && seen(i))
+            .map(|i| (a.data()[i].into(), b.data()[i].into()))
             .filter(|&(_, z): &(f64, f64)| z.is_finite() && z > 0.0)
             .collect()
     };
     let flat = |k: usize| depths(k).iter().map(|&(_, z)| (1.0, z)).collect::<Vec<_>>();
-    let motions = |k: usize| Some((found.motions.get(k)?, truth.motions.get(k)?));
-    Ok(Scores {
+    let motions = |k: usize| Some((found.motions?.get(k)?, truth.motions?.get(k)?));
+    Ok(PartScores {
         aee: flow.map(|f| f.0),
         aae: flow.map(|f| f.1),
-        labels_wrong: wrong as f64 / truth.labels.len().max(1) as f64,
+        labels_wrong: labels.map(|(_, b)| wrong as f64 / b.len().max(1) as f64),
         iou: regions.clone().map(iou).collect(),
         depth_error: regions.clone().map(|k| depth_error(&depths(k))).collect(),
         flat_depth_error: regions.clone().map(|k| depth_error(&flat(k))).collect(),
@@ -94,6 +213,21 @@ pub fn compare(found: &Interpretation, truth: &Interpretation) -> Result<Scores,
             .map(|k| motions(k).map(|(a, b)| (a.rotation - b.rotation).length()))
             .collect(),
     })
+}
+
+/// Two grids if there are both.
+#[allow(clippy::type_complexity)]
+fn both<'a, T: Copy>(
+    found: Option<&'a Grid<T>>,
+    truth: Option<&'a Grid<T>>,
+) -> Result<Option<(&'a Grid<T>, &'a Grid<T>)>, Error> {
+    match (found, truth) {
+        (Some(found), Some(truth)) => {
+            same_size(found, truth)?;
+            Ok(Some((found, truth)))
+        }
+        _ => Ok(None),
+    }
 }
 
 /// (AEE in pixels, AAE in degrees) over the pixels whose true flow is known and, if a mask is given,

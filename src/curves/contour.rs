@@ -34,6 +34,25 @@ pub struct Contour {
     pub closed: bool,
 }
 
+impl Contour {
+    /// The same curve on the frame enlarged `n` times.
+    pub(crate) fn enlarged(self, n: usize) -> Self {
+        self.scaled(n as f32)
+    }
+
+    /// The same curve on the frame shrunk `n` times.
+    pub fn shrunk(self, n: usize) -> Self {
+        self.scaled((n as f32).recip())
+    }
+
+    fn scaled(mut self, n: f32) -> Self {
+        for c in self.points.as_flattened_mut() {
+            *c = n * (*c + 0.5) - 0.5;
+        }
+        self
+    }
+}
+
 /// All curves of a level set, largest first; none when it has only one sign. What is not a number
 /// counts as outside.
 pub fn contours(level_set: &Grid<f32>, label: u8) -> Vec<Contour> {

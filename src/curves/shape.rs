@@ -54,12 +54,12 @@ impl Shape {
         }
     }
 
-    /// The level set of the curve over a `width × height` frame; `index` (from 0) only names it in errors.
+    /// Whether the curve can lie on a `width × height` frame; `index` (from 0) only names it in errors.
     ///
     /// # Errors
-    /// [`Error::CurveNotFinite`], [`Error::CurveOutside`] when it meets no pixel of the frame,
-    /// [`Error::CurveEmpty`] when it encloses none.
-    pub fn level_set(&self, width: usize, height: usize, index: usize) -> Result<Grid<f32>, Error> {
+    /// [`Error::CurveNotFinite`], [`Error::CurveOutside`] when it meets no pixel of the frame, [`Error::CurveEmpty`] when
+    /// it has no corner.
+    pub fn check(&self, width: usize, height: usize, index: usize) -> Result<(), Error> {
         let curve = index + 1;
         let (min, max, finite) = self.bounds();
         if !finite {
@@ -76,6 +76,16 @@ impl Shape {
                 height,
             });
         }
+        Ok(())
+    }
+
+    /// The level set of the curve over a `width × height` frame; `index` (from 0) only names it in errors.
+    ///
+    /// # Errors
+    /// What [`Shape::check`] finds, and [`Error::CurveEmpty`] when it encloses no pixel.
+    pub fn level_set(&self, width: usize, height: usize, index: usize) -> Result<Grid<f32>, Error> {
+        let curve = index + 1;
+        self.check(width, height, index)?;
         let phi = match self {
             Shape::Circle { .. } => Grid::from_fn(width, height, |x, y| {
                 self.signed_distance(x as f64, y as f64) as f32
@@ -86,6 +96,22 @@ impl Shape {
             return Err(Error::CurveEmpty { curve });
         }
         Ok(phi)
+    }
+
+    /// The same curve on the frame shrunk `n` times.
+    pub(crate) fn shrunk(&self, n: usize) -> Self {
+        let n = n as f64;
+        let place = |c: f64| (c + 0.5) / n - 0.5;
+        match self {
+            Self::Circle { x, y, r } => Self::Circle {
+                x: place(*x),
+                y: place(*y),
+                r: r / n,
+            },
+            Self::Polygon { points } => Self::Polygon {
+                points: points.iter().map(|p| p.map(place)).collect(),
+            },
+        }
     }
 
     /// Least and greatest corner, and whether every number is finite; least exceeds greatest when

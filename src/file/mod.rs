@@ -2,13 +2,15 @@
 
 pub mod flo;
 pub mod kept;
+pub mod kitti;
 pub mod motion;
+pub mod parts;
 pub mod pfm;
 pub mod png;
 pub mod result;
 
 use crate::error::Error;
-use crate::frames::MAX_SIDE;
+use crate::frames::{MAX_PIXELS, MAX_SIDE};
 
 fn unreadable(name: &str, format: &'static str, reason: impl Into<String>) -> Error {
     Error::File {
@@ -26,14 +28,16 @@ fn bounded(
     height: i64,
 ) -> Result<(usize, usize), Error> {
     let allowed = 1..=MAX_SIDE as i64;
-    if allowed.contains(&width) && allowed.contains(&height) {
+    if allowed.contains(&width) && allowed.contains(&height) && width * height <= MAX_PIXELS as i64
+    {
         return Ok((width as usize, height as usize));
     }
     Err(unreadable(
         name,
         format,
         format!(
-            "it says it is {width}×{height} pixels; both sides must lie between 1 and {MAX_SIDE}"
+            "it says it is {width}×{height} pixels; both sides must lie between 1 and {MAX_SIDE}, and {} megapixels are the most",
+            MAX_PIXELS / 1_000_000
         ),
     ))
 }

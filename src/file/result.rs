@@ -75,7 +75,7 @@ impl ResultFiles<'_> {
     pub fn read(&self) -> Result<Interpretation, Error> {
         let labels = png::read_labels(self.labels, "labels.png")?;
         let (width, height) = (labels.width(), labels.height());
-        let motions = motions(&MotionFile::read(self.motion)?, &labels)?;
+        let motions = motions_of(&MotionFile::read(self.motion)?, Some(&labels))?;
         let occluded = match self.occlusion {
             Some(bytes) => png::read_labels(bytes, "occlusion.png")?,
             None => Grid::new(width, height, 0),
@@ -99,14 +99,19 @@ impl ResultFiles<'_> {
 }
 
 /// The motions of the regions in the order of their labels.
-fn motions(file: &MotionFile, labels: &Grid<u8>) -> Result<Vec<RigidMotion>, Error> {
+pub(super) fn motions_of(
+    file: &MotionFile,
+    labels: Option<&Grid<u8>>,
+) -> Result<Vec<RigidMotion>, Error> {
     let mut regions = file.regions.clone();
     regions.sort_by_key(|region| region.label);
     let numbered = regions
         .iter()
         .enumerate()
         .all(|(k, region)| usize::from(region.label) == k);
-    let last = labels.data().iter().copied().max().unwrap_or(0);
+    let last = labels
+        .and_then(|labels| labels.data().iter().copied().max())
+        .unwrap_or(0);
     if !numbered || regions.len() <= usize::from(last) {
         return Err(Error::Regions {
             described: file.regions.iter().map(|region| region.label).collect(),
@@ -123,6 +128,7 @@ fn alike<T: Copy>(labels: &Grid<u8>, it: &Grid<T>, name: &'static str) -> Result
     Err(Error::FilesDiffer {
         name,
         size: (it.width(), it.height()),
-        labels: (labels.width(), labels.height()),
+        than: "labels.png",
+        expected: (labels.width(), labels.height()),
     })
 }

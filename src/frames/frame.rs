@@ -3,18 +3,27 @@
 //! Brightness is the luma of the frame as encoded (Rec. 709 weights on sRGB values), in grey levels
 //! 0–255 with 16-bit input keeping its fraction. It is not linearised: encoded values have noise of
 //! nearly equal size at all brightnesses, which is what least squares assumes.
+//!
+//! A frame holds 3 bytes a pixel of colour and 4 of brightness, the latter of [`MOST_WORKED`] pixels at most:
+//! 84 MB at 12 megapixels, 350 MB at 100. Copies share them.
 
-use image::{DynamicImage, ImageDecoder, ImageError, ImageReader};
-use std::io::Cursor;
+use std::sync::Arc;
 
+use super::lens::Lens;
+use super::levels::Levels;
+use super::note::Note;
+use super::shrink::{shrunk, shrunk_colours, shrunk_mask};
 use crate::error::Error;
-use crate::file::png;
 use crate::grid::Grid;
 
 /// Shortest side of a frame, in pixels.
 pub const MIN_SIDE: usize = 16;
 /// Longest side of a frame, in pixels.
-pub const MAX_SIDE: usize = 4096;
+pub const MAX_SIDE: usize = 30_000;
+/// Most pixels of a frame.
+pub const MAX_PIXELS: usize = 100_000_000;
+/// Most pixels that are worked on: the solver holds 250 bytes for each with four regions, and WebAssembly has 4 GiB.
+pub const MOST_WORKED: usize = 16_000_000;
 
 /// A picture, for the solver and for the eye.
 ///
@@ -33,57 +42,27 @@ pub const MAX_SIDE: usize = 4096;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// Brightness in grey levels, 0–255, not rounded.
-    pub grey: Grid<f32>,
+    /// Brightness in grey levels, 0–255, not rounded: of the frame's size, or where that has more than
+    /// [`MOST_WORKED`] pixels, shrunk by the least whole number that leaves no more.
+    pub grey: Arc<Grid<f32>>,
     /// Colours to show, sRGB, opaque.
-    pub rgb: Grid<[u8; 3]>,
+    pub rgb: Arc<Grid<[u8; 3]>>,
+    /// 1 where the file says that there is no picture (alpha 0), 0 elsewhere; `None` where there is one everywhere.
+    pub unknown: Option<Arc<Grid<u8>>>,
+    /// What its file says of the lens.
+    pub lens: Option<Lens>,
+    /// Colours of 16 bits, where the file has them and most of their range is empty.
+    pub(super) deep: Option<Arc<Grid<[u16; 3]>>>,
+    /// Grey levels in a step of the file's numbers; 0 where brightness was computed.
+    pub(super) step: f32,
 }
 
 impl Frame {
-    /// Reads a PNG, JPEG, PNM, WebP, BMP or TIFF file of 8 or 16 bits: grey, RGB, with or without
-    /// alpha; only PNG without the feature `decoders`. Transparent parts are shown on mid grey. `name` is what error messages call it.
+    /// A frame of 8-bit sRGB values with alpha, four bytes a pixel in row order. Transparent parts are shown on mid
+    /// grey, and are unknown where alpha is 0.
     ///
     /// # Errors
-    /// [`Error::Decode`] for anything else, [`Error::Size`] outside the limits, [`Error::TooLarge`] far
-    /// outside; the size is read from the header, before any pixel is unpacked.
-    pub fn decode(bytes: &[u8], name: &str) -> Result<Self, Error> {
-        let unreadable = |reason: String| Error::Decode {
-            name: name.to_owned(),
-            reason,
-        };
-        let open = || {
-            ImageReader::new(Cursor::new(bytes))
-                .with_guessed_format()
-                .map_err(|e| unreadable(e.to_string()))
-        };
-        if bytes.is_empty() {
-            return Err(unreadable("the file is empty".to_owned()));
-        }
-        if png::palette_breaks_off(bytes) {
-            return Err(unreadable("its palette is cut short".to_owned()));
-        }
-        let refused = |e: ImageError| match e {
-            ImageError::Limits(_) => Error::TooLarge {
-                name: name.to_owned(),
-            },
-            other => unreadable(other.to_string()),
-        };
-        let (width, height) = open()?.into_dimensions().map_err(refused)?;
-        check_size(name, width as usize, height as usize)?;
-        if jpeg_breaks_off(bytes) {
-            return Err(unreadable("the file is cut short".to_owned()));
-        }
-        let mut decoder = open()?.into_decoder().map_err(refused)?;
-        let upright = decoder.orientation().map_err(refused)?;
-        let mut picture = DynamicImage::from_decoder(decoder).map_err(refused)?;
-        picture.apply_orientation(upright);
-        Ok(Self::from_dynamic(&picture))
-    }
-
-    /// A frame of 8-bit sRGB values with alpha, four bytes a pixel in row order.
-    ///
-    /// # Errors
-    /// [`Error::Size`] outside the limits, [`Error::Length`] unless there are
+    /// [`Error::Size`] and [`Error::Pixels`] outside the limits, [`Error::Length`] unless there are
     /// `4 · width · height` bytes.
     pub fn from_rgba8(width: usize, height: usize, bytes: &[u8]) -> Result<Self, Error> {
         check_size("the frame", width, height)?;
@@ -96,50 +75,133 @@ impl Frame {
                 found: bytes.len(),
             });
         }
-        let rgb: Vec<[f32; 3]> = bytes
-            .chunks_exact(4)
-            .map(|p| over_grey([p[0], p[1], p[2], p[3]].map(f32::from)))
-            .collect();
-        Ok(Self::from_colours(width, height, &rgb))
+        let row = |y: usize| &bytes[4 * width * y..4 * width * (y + 1)];
+        Ok(Self::from_rows(width, height, |y, out, known| {
+            for ((out, known), p) in out.iter_mut().zip(known).zip(row(y).chunks_exact(4)) {
+                *out = over_grey([p[0], p[1], p[2], p[3]].map(f32::from));
+                *known = p[3] > 0;
+            }
+        }))
     }
 
     /// A frame of brightness alone, in grey levels 0–255.
     ///
     /// # Errors
-    /// [`Error::Size`] outside the limits.
+    /// [`Error::Size`] and [`Error::Pixels`] outside the limits.
     pub fn from_grey(grey: Grid<f32>) -> Result<Self, Error> {
         check_size("the frame", grey.width(), grey.height())?;
-        let rgb = grey.map(|g| [g.round().clamp(0.0, 255.0) as u8; 3]);
-        Ok(Self { grey, rgb })
+        let rgb = Arc::new(grey.map(|g| [g.round().clamp(0.0, 255.0) as u8; 3]));
+        let n = least_factor(grey.len());
+        Ok(Self {
+            grey: Arc::new(if n > 1 { shrunk(&grey, n) } else { grey }),
+            rgb,
+            unknown: None,
+            lens: None,
+            deep: None,
+            step: 0.0,
+        })
     }
 
     /// A frame of sRGB colours 0–255 that need not be whole numbers; sizes must agree.
+    #[cfg(feature = "scenes")]
     pub(crate) fn from_colours(width: usize, height: usize, colours: &[[f32; 3]]) -> Self {
-        let grey = Grid::from_fn(width, height, |x, y| luma(colours[y * width + x]));
-        let rgb = Grid::from_fn(width, height, |x, y| {
-            colours[y * width + x].map(|c| c.round().clamp(0.0, 255.0) as u8)
-        });
-        Self { grey, rgb }
+        Self::from_rows(width, height, |y, out, _| {
+            out.copy_from_slice(&colours[y * width..(y + 1) * width]);
+        })
+    }
+
+    /// A frame whose rows `fill(y, colours, known)` writes: sRGB 0–255, not rounded, and whether there is a picture.
+    pub(super) fn from_rows(
+        width: usize,
+        height: usize,
+        mut fill: impl FnMut(usize, &mut [[f32; 3]], &mut [bool]),
+    ) -> Self {
+        let n = least_factor(width * height);
+        let mut rgb = Vec::with_capacity(width * height);
+        let mut grey = Grid::new(width / n, height / n, 0.0f32);
+        let mut unknown: Option<Grid<u8>> = None;
+        let mut row = vec![[0.0f32; 3]; width];
+        let mut known = vec![true; width];
+        let share = 1.0 / (n * n) as f32;
+        for y in 0..height {
+            fill(y, &mut row, &mut known);
+            rgb.extend((row.iter()).map(|c| c.map(|c| c.round().clamp(0.0, 255.0) as u8)));
+            if y / n < grey.height() {
+                let sums = grey.row_mut(y / n).iter_mut();
+                if n == 1 {
+                    for (sum, &c) in sums.zip(&row) {
+                        *sum = luma(c);
+                    }
+                } else {
+                    for (sum, few) in sums.zip(row.chunks_exact(n)) {
+                        *sum += share * few.iter().map(|&c| luma(c)).sum::<f32>();
+                    }
+                }
+            }
+            if known.contains(&false) {
+                let mask = unknown.get_or_insert_with(|| Grid::new(width, height, 0));
+                for (m, &known) in mask.row_mut(y).iter_mut().zip(&known) {
+                    *m = u8::from(!known);
+                }
+            }
+        }
+        let rgb = Grid::from_vec(width, height, rgb).expect("a row for each y");
+        Self {
+            grey: Arc::new(grey),
+            rgb: Arc::new(rgb),
+            unknown: unknown.map(Arc::new),
+            lens: None,
+            deep: None,
+            step: 1.0,
+        }
+    }
+
+    /// The frame with its levels stretched where it uses few, as it is shown by itself.
+    pub fn stretched(&self) -> Self {
+        let levels = Levels::of(&[self]);
+        if levels.narrow() {
+            levels.stretch(self)
+        } else {
+            self.clone()
+        }
     }
 
     /// Columns.
     pub fn width(&self) -> usize {
-        self.grey.width()
+        self.rgb.width()
     }
 
     /// Rows.
     pub fn height(&self) -> usize {
-        self.grey.height()
+        self.rgb.height()
     }
 
-    fn from_dynamic(picture: &DynamicImage) -> Self {
-        let wide = picture.to_rgba16();
-        let (width, height) = (wide.width() as usize, wide.height() as usize);
-        let colours: Vec<[f32; 3]> = wide
-            .pixels()
-            .map(|p| over_grey(p.0.map(|c| f32::from(c) / 257.0)))
-            .collect();
-        Self::from_colours(width, height, &colours)
+    /// How many times its brightness is shrunk already.
+    pub fn grey_factor(&self) -> usize {
+        least_factor(self.rgb.len())
+    }
+
+    /// Its brightness shrunk `n` times, a multiple of [`Frame::grey_factor`].
+    pub(crate) fn grey_shrunk(&self, n: usize) -> Grid<f32> {
+        match n / self.grey_factor() {
+            0 | 1 => (*self.grey).clone(),
+            rest => shrunk(&self.grey, rest),
+        }
+    }
+
+    /// The frame shrunk `n` times, a multiple of [`Frame::grey_factor`]; its brightness is never shrunk.
+    pub fn shrunk(&self, n: usize) -> Self {
+        if n == 1 {
+            return self.clone();
+        }
+        Self {
+            grey: Arc::new(self.grey_shrunk(n)),
+            rgb: Arc::new(shrunk_colours(&self.rgb, n)),
+            unknown: (self.unknown.as_ref()).map(|mask| Arc::new(shrunk_mask(mask, n))),
+            lens: self.lens.map(|lens| lens.shrunk(n)),
+            deep: None,
+            step: self.step,
+        }
     }
 }
 
@@ -160,16 +222,19 @@ impl Frame {
 pub struct FramePair {
     first: Frame,
     second: Frame,
+    /// The second as it was given.
+    unstretched: Frame,
+    notes: Vec<Note>,
 }
 
 impl FramePair {
-    /// Pairs two frames.
+    /// Pairs two frames. Where they use few levels of brightness, both are stretched alike.
     ///
     /// # Errors
     /// [`Error::FramesDiffer`] in size, [`Error::FrameConstant`] when one has no contrast,
     /// [`Error::FramesIdentical`] when no pixel changes.
-    pub fn new(first: Frame, second: Frame) -> Result<Self, Error> {
-        if !first.grey.same_size(&second.grey) {
+    pub fn new(mut first: Frame, mut second: Frame) -> Result<Self, Error> {
+        if !first.rgb.same_size(&second.rgb) {
             return Err(Error::FramesDiffer {
                 first: (first.width(), first.height()),
                 second: (second.width(), second.height()),
@@ -184,7 +249,35 @@ impl FramePair {
         if first.grey == second.grey {
             return Err(Error::FramesIdentical);
         }
-        Ok(Self { first, second })
+        let mut notes = Vec::new();
+        if first.interlaced() {
+            notes.push(Note::Interlaced);
+        }
+        let levels = Levels::of(&[&first, &second]);
+        let unstretched = second.clone();
+        if levels.narrow() {
+            notes.push(levels.note(first.step.max(second.step)));
+            (first, second) = (levels.stretch(&first), levels.stretch(&second));
+        }
+        Ok(Self {
+            first,
+            second,
+            unstretched,
+            notes,
+        })
+    }
+
+    /// The pair of the second frame and the one that follows it.
+    ///
+    /// # Errors
+    /// Those of [`FramePair::new`].
+    pub fn following(&self, next: Frame) -> Result<Self, Error> {
+        Self::new(self.unstretched.clone(), next)
+    }
+
+    /// What a user should know of the two.
+    pub fn notes(&self) -> &[Note] {
+        &self.notes
     }
 
     /// The frame whose labels, depth and motion are sought.
@@ -206,53 +299,49 @@ impl FramePair {
     pub fn height(&self) -> usize {
         self.first.height()
     }
-}
 
-fn check_size(name: &str, width: usize, height: usize) -> Result<(), Error> {
-    let allowed = MIN_SIDE..=MAX_SIDE;
-    if allowed.contains(&width) && allowed.contains(&height) {
-        return Ok(());
+    /// Both frames shrunk `n` times, as [`Frame::shrunk`] does it.
+    pub fn shrunk(&self, n: usize) -> Self {
+        let second = self.second.shrunk(n);
+        Self {
+            first: self.first.shrunk(n),
+            unstretched: second.clone(),
+            second,
+            notes: self.notes.clone(),
+        }
     }
-    Err(Error::Size {
-        name: name.to_owned(),
-        width,
-        height,
-    })
 }
 
-fn luma(rgb: [f32; 3]) -> f32 {
+/// The least whole number by which so many pixels are shrunk to [`MOST_WORKED`].
+pub(crate) fn least_factor(pixels: usize) -> usize {
+    (1..).find(|n| pixels / (n * n) <= MOST_WORKED).unwrap_or(1)
+}
+
+pub(crate) fn check_size(name: &str, width: usize, height: usize) -> Result<(), Error> {
+    let allowed = MIN_SIDE..=MAX_SIDE;
+    let name = || name.to_owned();
+    if !(allowed.contains(&width) && allowed.contains(&height)) {
+        return Err(Error::Size {
+            name: name(),
+            width,
+            height,
+        });
+    }
+    if width * height > MAX_PIXELS {
+        return Err(Error::Pixels {
+            name: name(),
+            width,
+            height,
+        });
+    }
+    Ok(())
+}
+
+pub(super) fn luma(rgb: [f32; 3]) -> f32 {
     0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
 }
 
-fn over_grey(rgba: [f32; 4]) -> [f32; 3] {
+pub(super) fn over_grey(rgba: [f32; 4]) -> [f32; 3] {
     let a = rgba[3] / 255.0;
     [rgba[0], rgba[1], rgba[2]].map(|c| c * a + 128.0 * (1.0 - a))
-}
-
-/// Whether the bytes are a JPEG without an end. The decoder would fill what is missing with grey and say
-/// nothing, and a solver would take the grey for a scene.
-fn jpeg_breaks_off(bytes: &[u8]) -> bool {
-    bytes.starts_with(&[0xff, 0xd8]) && jpeg_end(&bytes[2..]).is_none()
-}
-
-/// Walks a JPEG's segments (`FF marker length …`, with coded data after those that start a scan) from
-/// behind its start to its end of image; `None` when they stop before.
-fn jpeg_end(mut rest: &[u8]) -> Option<()> {
-    loop {
-        let start = rest.windows(2).position(|pair| {
-            // In coded data zero is stuffing and D0–D7 restart them; FF may be repeated anywhere.
-            pair[0] == 0xff && !matches!(pair[1], 0x00 | 0xd0..=0xd7 | 0xff)
-        })?;
-        let marker = rest[start + 1];
-        rest = &rest[start + 2..];
-        match marker {
-            0xd9 => return Some(()),
-            // The only other one without a length.
-            0x01 => {}
-            _ => {
-                let length = u16::from_be_bytes(*rest.first_chunk()?);
-                rest = rest.get(usize::from(length.max(2))..)?;
-            }
-        }
-    }
 }

@@ -19,7 +19,9 @@ use glam::{DMat3, DVec2, DVec3};
 use super::epipolar::Pair;
 use super::matches::{Match, matches};
 use crate::camera::{Camera, RigidMotion};
-use crate::frames::{FramePair, MIN_SIDE, halved, halved_camera};
+use crate::frames::{FramePair, MIN_SIDE, halved, halved_camera, shrunk_camera};
+use crate::options::Detail;
+use crate::working::factor;
 
 /// Frames of more pixels are halved.
 const PIXELS: usize = 352 * 288;
@@ -59,8 +61,9 @@ pub struct Small {
 
 /// The matches between the frames of `pair`.
 pub fn small_samples(pair: &FramePair, camera: &Camera) -> Small {
-    let mut camera = *camera;
-    let mut frames = [pair.first(), pair.second()].map(|frame| frame.grey.clone());
+    let n = factor(pair.width(), pair.height(), Detail::Fine);
+    let mut camera = shrunk_camera(camera, n);
+    let mut frames = [pair.first(), pair.second()].map(|frame| frame.grey_shrunk(n));
     while frames[0].len() > PIXELS && frames[0].width().min(frames[0].height()) >= 2 * MIN_SIDE {
         frames = frames.map(|frame| halved(&frame));
         camera = halved_camera(&camera);

@@ -63,7 +63,7 @@ impl Layered {
             .collect();
         // Not in each other's light: what one frame alone shows is taken for a change of light, which turns depth.
         let pair = self.pair.clone();
-        let frames = [&pair.first().grey, &pair.second().grey];
+        let frames = [pair.first(), pair.second()].map(|frame| &*frame.grey);
         let all = matches(frames[0], frames[1]);
         let camera = self.scales[0].camera;
         let smooth = frames.map(|frame| blur(frame, self.smoothing));

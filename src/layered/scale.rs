@@ -40,7 +40,7 @@ pub(crate) fn pyramid(
     let (gain, offset) = (lighting.gain as f32, lighting.offset as f32);
     let mut plain = [
         pair.first().grey.map(|v| gain * v + offset),
-        pair.second().grey.clone(),
+        (*pair.second().grey).clone(),
     ];
     let mut smooth = [blur(&plain[0], smoothing), blur(&plain[1], smoothing)];
     let mut camera = camera;

@@ -36,6 +36,34 @@ pub fn catalogue() -> &'static [Descriptor] {
 
 static CATALOGUE: &[Descriptor] = &[
     Descriptor {
+        key: "detail",
+        label: "Detail",
+        meaning: "Size at which frames are worked on. What is found is brought back to their size along their edges; weights and energies are of the size worked on. A change starts the solve anew.",
+        term: "frames",
+        unit: "",
+        presets: BOTH,
+        control: Control::Choice {
+            choices: &[
+                Choice {
+                    value: "fast",
+                    label: "fast: 0.15 megapixels",
+                },
+                Choice {
+                    value: "normal",
+                    label: "normal: 0.5 megapixels",
+                },
+                Choice {
+                    value: "fine",
+                    label: "fine: 2 megapixels",
+                },
+                Choice {
+                    value: "full",
+                    label: "full: up to 16 megapixels",
+                },
+            ],
+        },
+    },
+    Descriptor {
         key: "mu",
         label: "Smoothness μ",
         meaning: "How much smooth depth counts against fitting the frames.",

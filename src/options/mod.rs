@@ -62,6 +62,40 @@ pub enum Diffusion {
     Isotropic,
 }
 
+/// Size at which frames are worked on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Detail {
+    /// About 0.15 megapixels.
+    Fast,
+    /// About 0.5 megapixels.
+    #[default]
+    Normal,
+    /// About 2 megapixels.
+    Fine,
+    /// All pixels, up to 16 megapixels.
+    Full,
+}
+
+impl Detail {
+    /// All of them, the coarsest first.
+    pub const ALL: &'static [Self] = &[Self::Fast, Self::Normal, Self::Fine, Self::Full];
+
+    /// Pixels that frames are shrunk to, from 2/5 to 9/4 of that; `None` for all that there are.
+    pub fn pixels(self) -> Option<usize> {
+        match self {
+            Self::Fast => Some(150_000),
+            Self::Normal => Some(500_000),
+            Self::Fine => Some(2_000_000),
+            Self::Full => None,
+        }
+    }
+}
+
 /// All settings of a solver.
 ///
 /// ```
@@ -88,6 +122,8 @@ pub enum Diffusion {
 pub struct Options {
     /// Which solver, and what the other settings started from.
     pub preset: Preset,
+    /// Size at which frames are worked on.
+    pub detail: Detail,
     /// μ, or from the data.
     pub mu: Option<f64>,
     /// λ, or from the data.
@@ -130,6 +166,7 @@ impl Options {
         let best = preset == Preset::Best;
         Self {
             preset,
+            detail: Detail::default(),
             mu: None,
             lambda: None,
             diffusion: Diffusion::Anisotropic,

@@ -32,7 +32,7 @@ use serde::Serialize;
 use crate::camera::Camera;
 use crate::curves::Shape;
 use crate::error::Error;
-use crate::frames::{Frame, MAX_SIDE, MIN_SIDE};
+use crate::frames::{Frame, check_size};
 use crate::interpretation::Interpretation;
 use stage::Stage;
 
@@ -133,13 +133,6 @@ fn entry(name: &str) -> Result<&'static Entry, Error> {
 /// A camera whose horizontal field of view is 53° in a 4:3 frame; in a flatter or taller frame the
 /// largest 4:3 part of it has that field of view.
 fn camera(name: &str, width: usize, height: usize) -> Result<Camera, Error> {
-    let sides = MIN_SIDE..=MAX_SIDE;
-    if !sides.contains(&width) || !sides.contains(&height) {
-        return Err(Error::Size {
-            name: format!("the sequence {name}"),
-            width,
-            height,
-        });
-    }
+    check_size(&format!("the sequence {name}"), width, height)?;
     Camera::centred((width as f64).min(height as f64 * 4.0 / 3.0), width, height)
 }

@@ -13,6 +13,7 @@ pub use history::Status;
 pub use report::{Expected, RegionReport, Report, Seconds};
 pub use weights::Weights;
 
+use std::cell::RefCell;
 use std::rc::Rc;
 
 use history::History;
@@ -21,14 +22,19 @@ use crate::camera::Camera;
 use crate::curves::{Contour, Shape, contours};
 use crate::energy::Energy;
 use crate::error::Error;
-use crate::frames::{Frame, FramePair};
+use crate::frames::{Frame, FramePair, blur, shrunk_camera};
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 use crate::layered::Layered;
-use crate::options::{MAX_CURVES, Options, Preset};
+use crate::options::{Options, Preset};
 use crate::paper::Paper;
+use crate::window::Window;
+use crate::working::{Working, upsampled};
 
 /// Finds regions, motions and depth of a pair of frames.
+///
+/// Frames, camera and curves are given, and results told, in pixels of the frames as they are; the option *Detail* says at
+/// what size they are worked on.
 ///
 /// ```
 /// use relievo::options::Preset;
@@ -57,6 +63,9 @@ use crate::paper::Paper;
 pub struct Solver {
     pair: Rc<FramePair>,
     camera: Camera,
+    working: Working,
+    /// The frames last shown smaller than they are, and how many times.
+    shown: RefCell<Option<(usize, Rc<FramePair>)>>,
     shapes: Vec<Shape>,
     options: Options,
     approach: Box<dyn Approach>,
@@ -66,20 +75,17 @@ pub struct Solver {
     clock: fn() -> f64,
 }
 
-/// Pixels that `best` holds in the 4 GiB of WebAssembly, at 250 bytes a pixel with four regions. Without bound where
-/// memory is not.
-const MOST_PIXELS: Option<usize> = if usize::BITS == 32 {
-    Some(16_000_000)
-} else {
-    None
-};
+/// Outlines of frames that were shrunk are drawn on frames of at most so many pixels.
+const OUTLINED: usize = 2_000_000;
+/// Standard deviation of the Gaussian that turns labels into level sets of their outlines, pixels.
+const OUTLINE_BLUR: f64 = 0.7;
 
 impl Solver {
     /// A solver at its start: the curves as drawn, the same depth everywhere, nothing moving.
     ///
     /// # Errors
-    /// What [`Shape::level_set`] finds wrong with a curve, [`Error::TooManyCurves`], what [`Options::validate`] finds
-    /// wrong with a setting, and [`Error::Memory`].
+    /// What [`Shape::level_set`] finds wrong with a curve, [`Error::TooManyCurves`], and what [`Options::validate`] finds
+    /// wrong with a setting.
     pub fn new(
         pair: FramePair,
         camera: Camera,
@@ -87,14 +93,16 @@ impl Solver {
         options: Options,
     ) -> Result<Self, Error> {
         options.validate()?;
-        check_memory(&pair, &options)?;
-        let level_sets = level_sets(&pair, shapes)?;
         let camera = Camera::new(camera.focal, camera.cx, camera.cy)?;
         let pair = Rc::new(pair);
+        let working = Working::new(&pair, &camera, options.detail);
+        let level_sets = working.level_sets(shapes, &pair)?;
         Ok(Self {
-            approach: begin(&pair, camera, level_sets, &options),
+            approach: begin(&working, level_sets, &options),
             pair,
             camera,
+            working,
+            shown: RefCell::default(),
             shapes: shapes.to_vec(),
             options,
             status: Status::Running,
@@ -137,9 +145,12 @@ impl Solver {
     /// # Errors
     /// What [`FramePair::new`] finds wrong with the new pair; then nothing is changed.
     pub fn next(&mut self, frame: Frame) -> Result<(), Error> {
-        let pair = FramePair::new(self.pair.second().clone(), frame)?;
+        let pair = self.pair.following(frame)?;
         self.pair = Rc::new(pair);
-        self.approach.advance(self.pair.clone(), &self.options);
+        self.working = Working::new(&self.pair, &self.camera, self.options.detail);
+        self.shown.take();
+        self.approach
+            .advance(self.working.pair.clone(), &self.options);
         self.history.draw();
         self.resume();
         Ok(())
@@ -213,15 +224,15 @@ impl Solver {
     }
 
     /// Changes settings while the solver runs; curves, depth and motions stay, unless the way depth is
-    /// held changes, or whether light may: then they start anew from the curves drawn last, since what was
+    /// held changes, the size worked on, or whether light may: then they start anew from the curves drawn last, since what was
     /// found in another light may be nothing to go on from. A solver that had stopped goes on.
     ///
     /// # Errors
     /// What [`Options::validate`] finds; then nothing is changed.
     pub fn set_options(&mut self, options: Options) -> Result<(), Error> {
         options.validate()?;
-        check_memory(&self.pair, &options)?;
         let anew = options.preset != self.options.preset
+            || options.detail != self.options.detail
             || options.preset == Preset::Best && options.lighting != self.options.lighting;
         self.options = options;
         if anew {
@@ -239,7 +250,7 @@ impl Solver {
     /// # Errors
     /// What [`Solver::new`] would find wrong with the curves; then nothing is changed.
     pub fn set_curves(&mut self, shapes: &[Shape]) -> Result<(), Error> {
-        let level_sets = level_sets(&self.pair, shapes)?;
+        let level_sets = self.working.level_sets(shapes, &self.pair)?;
         self.shapes = shapes.to_vec();
         self.approach.replace_curves(level_sets, &self.options);
         self.history.draw();
@@ -249,23 +260,108 @@ impl Solver {
 
     /// Back to the start: the curves as drawn last, the same depth everywhere, nothing moving.
     pub fn reset(&mut self) {
-        let level_sets = level_sets(&self.pair, &self.shapes).unwrap_or_default();
-        self.approach = begin(&self.pair, self.camera, level_sets, &self.options);
+        self.working = Working::new(&self.pair, &self.camera, self.options.detail);
+        let level_sets = self.working.level_sets(&self.shapes, &self.pair);
+        let level_sets = level_sets.unwrap_or_default();
+        self.approach = begin(&self.working, level_sets, &self.options);
         self.history = History::default();
         self.seconds = Seconds::default();
         self.resume();
     }
 
-    /// What the frames are taken for at present.
+    /// What the frames are taken for at present, at their size.
     pub fn interpretation(&self) -> Interpretation {
-        self.approach.interpretation(&self.options)
+        self.interpretation_shrunk(1)
+    }
+
+    /// The same on the frames shrunk `n` times, which [`Solver::shrunk_for`] gives.
+    pub fn interpretation_shrunk(&self, n: usize) -> Interpretation {
+        let found = self.approach.interpretation(&self.options);
+        let factor = self.working.factor;
+        if n == factor {
+            return found;
+        }
+        let guide = self.frames_shrunk(n);
+        upsampled(
+            &found,
+            &self.working.pair.first().rgb,
+            &guide.first().rgb,
+            factor as f32 / n as f32,
+            shrunk_camera(&self.camera, n),
+        )
+    }
+
+    /// The frames shrunk `n` times, which [`Solver::shrunk_for`] gives.
+    pub fn frames_shrunk(&self, n: usize) -> Rc<FramePair> {
+        if n == 1 {
+            return self.pair.clone();
+        }
+        if n == self.working.factor {
+            return self.working.pair.clone();
+        }
+        let mut shown = self.shown.borrow_mut();
+        match &*shown {
+            Some((last, pair)) if *last == n => pair.clone(),
+            _ => {
+                let pair = Rc::new(self.pair.shrunk(n));
+                *shown = Some((n, pair.clone()));
+                pair
+            }
+        }
+    }
+
+    /// The least number by which frames can be shrunk so that they have at most `pixels`; never more than they are for
+    /// the work.
+    pub fn shrunk_for(&self, pixels: usize) -> usize {
+        let step = self.pair.first().grey_factor();
+        let fits = |n: &usize| self.pair.first().rgb.len() / (n * n) <= pixels;
+        let most = self.working.factor;
+        std::iter::once(1)
+            .chain((step..most).step_by(step))
+            .find(fits)
+            .unwrap_or(most)
     }
 
     /// The curves as sub-pixel polylines, in the order of their labels.
     pub fn contours(&self) -> Vec<Contour> {
+        if self.working.factor > 1 {
+            return self.outlines();
+        }
         let level_sets = self.approach.level_sets();
         let numbered = level_sets.iter().zip(1..);
         numbered.flat_map(|(phi, k)| contours(phi, k)).collect()
+    }
+
+    /// The outlines of labels that were brought back to the frames, at [`OUTLINED`] pixels at most.
+    fn outlines(&self) -> Vec<Contour> {
+        let n = self.shrunk_for(OUTLINED);
+        let found = self.interpretation_shrunk(n);
+        let (width, height) = (found.labels.width(), found.labels.height());
+        let regions = found.regions() as u8;
+        let outlines = |k: u8| {
+            let own = |i: usize| found.labels.data()[i] == k;
+            let window = Window::around(width, height, own)?;
+            // With a margin, so that an outline ends at the window's border only where the frame does.
+            let (left, top) = (window.left.saturating_sub(3), window.top.saturating_sub(3));
+            let right = (window.left + window.width + 3).min(width);
+            let bottom = (window.top + window.height + 3).min(height);
+            let inside = Grid::from_fn(right - left, bottom - top, |x, y| {
+                let own = found.labels[(left + x, top + y)] == k;
+                if own { 1.0f32 } else { -1.0 }
+            });
+            let place = move |mut c: Contour| {
+                for p in &mut c.points {
+                    *p = [p[0] + left as f32, p[1] + top as f32];
+                }
+                c.enlarged(n)
+            };
+            Some(
+                contours(&blur(&inside, OUTLINE_BLUR), k)
+                    .into_iter()
+                    .map(place),
+            )
+        };
+        (1..regions).filter_map(outlines).flatten().collect()
     }
 
     /// Where the solver stands, in numbers.
@@ -279,38 +375,10 @@ impl Solver {
 }
 
 /// The approach that the options ask for, at its start.
-fn begin(
-    pair: &Rc<FramePair>,
-    camera: Camera,
-    level_sets: Vec<Grid<f32>>,
-    options: &Options,
-) -> Box<dyn Approach> {
+fn begin(working: &Working, level_sets: Vec<Grid<f32>>, options: &Options) -> Box<dyn Approach> {
+    let (pair, camera) = (working.pair.clone(), working.camera);
     match options.preset {
-        Preset::Paper => Box::new(Paper::new(pair.clone(), camera, level_sets, options)),
-        Preset::Best => Box::new(Layered::new(pair.clone(), camera, level_sets, options)),
+        Preset::Paper => Box::new(Paper::new(pair, camera, level_sets, options)),
+        Preset::Best => Box::new(Layered::new(pair, camera, level_sets, options)),
     }
-}
-
-fn check_memory(pair: &FramePair, options: &Options) -> Result<(), Error> {
-    let (width, height) = (pair.width(), pair.height());
-    match MOST_PIXELS {
-        Some(most) if options.preset == Preset::Best && width * height > most => {
-            Err(Error::Memory {
-                width,
-                height,
-                most: most / 1_000_000,
-            })
-        }
-        _ => Ok(()),
-    }
-}
-
-fn level_sets(pair: &FramePair, shapes: &[Shape]) -> Result<Vec<Grid<f32>>, Error> {
-    if shapes.len() > MAX_CURVES {
-        return Err(Error::TooManyCurves(shapes.len()));
-    }
-    let numbered = shapes.iter().enumerate();
-    numbered
-        .map(|(i, shape)| shape.level_set(pair.width(), pair.height(), i))
-        .collect()
 }

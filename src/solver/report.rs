@@ -6,6 +6,7 @@ use super::approach::pixels;
 use super::weights::Weights;
 use super::{Solver, Status};
 use crate::energy::Energy;
+use crate::frames::Note;
 use crate::motion_model::MotionModel;
 
 /// Seconds spent in each step.
@@ -64,6 +65,8 @@ pub struct Report {
     pub level: usize,
     /// Number of scales.
     pub levels: usize,
+    /// How many times frames are shrunk for the work.
+    pub factor: usize,
     /// The terms of (7).
     pub energy: Terms,
     /// Total energy after each pass; comparable between passes with no break between them.
@@ -77,6 +80,8 @@ pub struct Report {
     pub regions: Vec<RegionReport>,
     /// The weights in force.
     pub weights: Weights,
+    /// What a user should know of the frames; `warnings` has it in words.
+    pub notes: Vec<Note>,
     /// What a user should know, in sentences.
     pub warnings: Vec<String>,
     /// Time spent.
@@ -129,13 +134,14 @@ impl Report {
         let states = solver.approach.regions();
         let labels = solver.approach.labels();
         let (level, levels) = solver.approach.scale();
+        let factor = solver.working.factor;
         let owned = pixels(labels, states.len());
         let regions: Vec<RegionReport> = (states.into_iter().zip(owned))
             .enumerate()
             .map(|(label, (state, pixels))| RegionReport {
                 label,
-                // At a coarser scale a pixel stands for four, sixteen, … of the frame's.
-                pixels: pixels << (2 * level),
+                // A pixel of the scale at work stands for several of the frame's.
+                pixels: (pixels << (2 * level)) * factor * factor,
                 share: pixels as f64 / labels.len() as f64,
                 translation: state.motion.translation.to_array(),
                 rotation: state.motion.rotation.to_array(),
@@ -157,8 +163,15 @@ impl Report {
             },
             history: solver.history.energies.clone(),
             breaks: solver.history.breaks.clone(),
-            expected: solver.approach.expected(),
-            warnings: warnings(&regions),
+            factor,
+            expected: solver.approach.expected().map(|e| Expected {
+                flow: e.flow * factor as f64,
+                ..e
+            }),
+            warnings: (solver.pair.notes().iter().map(Note::to_string))
+                .chain(warnings(&regions))
+                .collect(),
+            notes: solver.pair.notes().to_vec(),
             regions,
             weights: solver.approach.weights(),
             seconds: Times {
@@ -169,7 +182,7 @@ impl Report {
     }
 }
 
-fn warnings(regions: &[RegionReport]) -> Vec<String> {
+fn warnings(regions: &[RegionReport]) -> impl Iterator<Item = String> {
     let vanished = regions
         .iter()
         .filter(|r| r.pixels == 0)
@@ -184,5 +197,5 @@ fn warnings(regions: &[RegionReport]) -> Vec<String> {
         };
         format!("{name} has two explanations that fit equally well; the one with less relief is shown.")
     });
-    vanished.chain(ambiguous).collect()
+    vanished.chain(ambiguous)
 }

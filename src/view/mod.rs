@@ -157,12 +157,12 @@ pub fn draw(
     params: &ViewParams,
 ) -> Result<Picture, Error> {
     params.check()?;
-    if !frame.grey.same_size(&interpretation.labels) {
+    if !frame.rgb.same_size(&interpretation.labels) {
         return Err(Error::Length {
             what: "an interpretation",
             width: frame.width(),
             height: frame.height(),
-            expected: frame.grey.len(),
+            expected: frame.rgb.len(),
             found: interpretation.labels.len(),
         });
     }

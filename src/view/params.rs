@@ -70,6 +70,9 @@ pub struct ViewParams {
     pub step: Option<usize>,
     /// Picture pixels per frame pixel for curves and arrows, 1–4.
     pub magnify: usize,
+    /// Pixels of the frame that is drawn on at most: a larger one is shrunk by a whole number first, and what counts
+    /// pixels here counts those of the shrunk frame, but for `speed`. Null: no limit.
+    pub pixels: Option<usize>,
 }
 
 impl Default for ViewParams {
@@ -93,6 +96,7 @@ impl Default for ViewParams {
             relief: None,
             step: None,
             magnify: 1,
+            pixels: None,
         }
     }
 }
@@ -132,6 +136,7 @@ impl ViewParams {
         within("tilt", self.tilt, -80.0, 80.0)?;
         within("relief", self.relief.unwrap_or(1.0), 0.0, 100.0)?;
         within("step", self.step.unwrap_or(1) as f64, 1.0, 64.0)?;
+        within("pixels", self.pixels.unwrap_or(1) as f64, 1.0, 1e9)?;
         within("magnify", self.magnify as f64, 1.0, 4.0)
     }
 }

@@ -119,7 +119,7 @@ pub(super) fn pair(
     let limit = (1.5 * params.baseline * frame.width() as f64) as f32;
     let shifts = parallax(&found.depth, found.camera.focal, &rig).map(|s| s.clamp(-limit, limit));
     let right = second_eye(&frame.rgb, &shifts, &found.labels, params.interpolate);
-    [frame.rgb.clone(), right]
+    [(*frame.rgb).clone(), right]
 }
 
 /// The pair side by side, twice as wide as the frame: left eye's picture on the left.

@@ -6,7 +6,7 @@ use tsify::Tsify;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::write;
-use crate::frames::{MAX_SIDE, MIN_SIDE};
+use crate::frames::{MAX_PIXELS, MAX_SIDE, MIN_SIDE};
 use crate::options::{self, Descriptor, MAX_CURVES, Options, Preset};
 use crate::scene;
 use crate::view::{self, Choice, GLASSES, LABEL_COLOURS, PALETTES, View, ViewParams};
@@ -55,6 +55,8 @@ struct Limits {
     min_side: usize,
     /// Longest side of a frame, pixels.
     max_side: usize,
+    /// Pixels of a frame.
+    max_pixels: usize,
     /// Curves on a frame.
     max_curves: usize,
 }
@@ -114,6 +116,7 @@ pub fn limits() -> String {
     write(&Limits {
         min_side: MIN_SIDE,
         max_side: MAX_SIDE,
+        max_pixels: MAX_PIXELS,
         max_curves: MAX_CURVES,
     })
 }

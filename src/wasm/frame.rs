@@ -1,14 +1,27 @@
 //! Frames in, pictures out.
 
 use js_sys::Uint8ClampedArray;
+use serde::Serialize;
+use tsify::Tsify;
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{Clamped, JsValue};
 use web_sys::ImageData;
 
-use super::Word;
+use super::{Word, write};
 use crate::error::Error;
+use crate::frames::Lens;
 use crate::grid::Grid;
 use crate::view;
+
+/// What a photo says of its lens.
+#[derive(Serialize, Tsify)]
+struct LensEntry {
+    #[serde(flatten)]
+    #[tsify(type = "Lens")]
+    lens: Lens,
+    /// Where f comes from, in words.
+    text: String,
+}
 
 /// One frame, decoded.
 #[wasm_bindgen]
@@ -40,6 +53,36 @@ impl Frame {
     #[wasm_bindgen(getter)]
     pub fn height(&self) -> usize {
         self.0.height()
+    }
+
+    /// What the photo's EXIF data say of its lens: a `Lens` with a `text` that says where f comes from, as JSON, or null.
+    pub fn lens(&self) -> String {
+        write(&self.0.lens.map(|lens| LensEntry {
+            lens,
+            text: lens.to_string(),
+        }))
+    }
+
+    /// Whether even and odd rows seem to show different moments.
+    #[wasm_bindgen(getter)]
+    pub fn interlaced(&self) -> bool {
+        self.0.interlaced()
+    }
+
+    /// The two moments of an interlaced frame, even rows first, half as wide and high: f is half as long.
+    pub fn fields(&self) -> Result<Vec<Frame>, Error> {
+        Ok(self.0.fields()?.map(Self).into())
+    }
+
+    /// The frame by itself with its levels of brightness stretched where it uses few, for the eye; a solver stretches
+    /// both of its frames alike.
+    pub fn stretched(&self) -> Frame {
+        Self(self.0.stretched())
+    }
+
+    /// 1 where the file has no picture (alpha 0), 0 elsewhere, in row order; undefined where it has one everywhere.
+    pub fn unknown(&self) -> Option<Vec<u8>> {
+        self.0.unknown.as_ref().map(|mask| mask.data().to_vec())
     }
 
     /// Four bytes a pixel in row order, opaque.

@@ -77,11 +77,12 @@ impl Kept {
     ) -> Result<Kept, Error> {
         let pair = FramePair::new(first.0.clone(), second.0.clone())?;
         let found = kept::read(bytes, "the kept result")?;
-        if !found.labels.same_size(&pair.first().grey) {
+        if !found.labels.same_size(&pair.first().rgb) {
             return Err(Error::FilesDiffer {
                 name: "the frame",
                 size: (pair.width(), pair.height()),
-                labels: (found.labels.width(), found.labels.height()),
+                than: "the kept result",
+                expected: (found.labels.width(), found.labels.height()),
             });
         }
         let outlines: Vec<Outline> = contours.read("curves")?;

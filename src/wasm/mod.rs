@@ -10,6 +10,7 @@ mod baseline;
 mod bench;
 mod catalogue;
 mod files;
+mod film;
 mod frame;
 mod kept;
 mod mesh;
@@ -17,12 +18,14 @@ mod panic;
 mod scene;
 mod solver;
 mod start;
+mod working;
 
 pub use baseline::{Baseline, horn_schunck};
 #[cfg(feature = "bench")]
 pub use bench::Kernels;
 pub use catalogue::{limits, option_catalogue, preset_catalogue, scene_catalogue, view_catalogue};
 pub use files::SavedResult;
+pub use film::{Film, decode_all};
 pub use frame::{Frame, Picture};
 pub use kept::Kept;
 pub use mesh::Mesh;
@@ -30,6 +33,7 @@ pub use panic::{panic_for_test, panic_message};
 pub use scene::Scene;
 pub use solver::Solver;
 pub use start::{displacement, find_curves, find_focal};
+pub use working::working_sizes;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;

@@ -1,6 +1,7 @@
 //! The solver on two frames.
 
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
+use std::rc::Rc;
 
 use js_sys::{Array, Float32Array, Reflect, Uint8Array};
 use serde::{Deserialize, Serialize};
@@ -104,6 +105,8 @@ pub struct Solver {
     solver: crate::Solver,
     /// What it has found, asked for by several views of the same pass.
     found: OnceCell<Interpretation>,
+    /// The same on frames shrunk so many times.
+    shrunk: RefCell<Option<(usize, Rc<Interpretation>)>>,
 }
 
 #[wasm_bindgen]
@@ -129,6 +132,7 @@ impl Solver {
         Ok(Self {
             solver,
             found: OnceCell::new(),
+            shrunk: RefCell::default(),
         })
     }
 
@@ -167,6 +171,16 @@ impl Solver {
     /// error the solver does, too.
     pub fn next(&mut self, frame: &Frame) -> Result<(), Error> {
         self.change().next(frame.0.clone())
+    }
+
+    /// The first frame as it is shown and solved: both are stretched alike where they use few levels.
+    pub fn first(&self) -> Frame {
+        Frame(self.solver.pair().first().clone())
+    }
+
+    /// The second frame, the same way.
+    pub fn second(&self) -> Frame {
+        Frame(self.solver.pair().second().clone())
     }
 
     /// Where it stands: `running`, `converged`, `exhausted` or `diverged`.
@@ -222,12 +236,10 @@ impl Solver {
     /// The relief, with the parameters of a view as JSON.
     pub fn mesh(&self, params: &Json) -> Result<Mesh, Error> {
         let params = params.view_params()?;
-        let found = self.found().scaled(&params.scales);
-        Ok(Mesh(view::mesh(
-            self.solver.pair().first(),
-            &found,
-            &params,
-        )))
+        let n = self.shrunk_for(&params);
+        let found = self.found_shrunk(n).scaled(&params.scales);
+        let frames = self.solver.frames_shrunk(n);
+        Ok(Mesh(view::mesh(frames.first(), &found, &params)))
     }
 
     /// How far this is from the truth of `scene`, and Horn–Schunck from its image motion: a `ScoreTable` as JSON.
@@ -239,8 +251,15 @@ impl Solver {
     #[wasm_bindgen(unchecked_return_type = "{ name: string; bytes: Uint8Array<ArrayBuffer> }[]")]
     pub fn files(&self, params: &Json) -> Result<Array, Error> {
         let params = params.view_params()?;
-        let found = self.found().scaled(&params.scales);
-        let mut files = result::write(&found, &self.motion_file(&found))?;
+        let found = self.found();
+        let scaled;
+        let found = if params.scales.iter().all(|&s| s == 1.0) {
+            found
+        } else {
+            scaled = found.scaled(&params.scales);
+            &scaled
+        };
+        let mut files = result::write(found, &self.motion_file(found))?;
         for (kind, name) in PICTURES {
             files.push((name, png::write_rgba(&self.picture(kind, &params)?.0)?));
         }
@@ -292,16 +311,42 @@ impl Solver {
         self.found.get_or_init(|| self.solver.interpretation())
     }
 
+    /// How many times frames are shrunk to be drawn on.
+    fn shrunk_for(&self, params: &ViewParams) -> usize {
+        params.pixels.map_or(1, |most| self.solver.shrunk_for(most))
+    }
+
+    fn found_shrunk(&self, n: usize) -> Rc<Interpretation> {
+        let mut shrunk = self.shrunk.borrow_mut();
+        match &*shrunk {
+            Some((last, found)) if *last == n => found.clone(),
+            _ => {
+                let found = Rc::new(self.solver.interpretation_shrunk(n));
+                *shrunk = Some((n, found.clone()));
+                found
+            }
+        }
+    }
+
     fn picture(&self, kind: &str, params: &ViewParams) -> Result<Picture, Error> {
-        let pair = self.solver.pair();
         // No other view shows curves.
-        let contours = if kind == "segmentation" {
+        let mut contours = if kind == "segmentation" {
             self.solver.contours()
         } else {
             Vec::new()
         };
+        let n = self.shrunk_for(params);
+        let pair = self.solver.frames_shrunk(n);
         let frames = [pair.first(), pair.second()];
-        draw(kind, frames, self.found(), &contours, params)
+        if n == 1 {
+            return draw(kind, frames, self.found(), &contours, params);
+        }
+        contours = contours.into_iter().map(|c| c.shrunk(n)).collect();
+        let params = ViewParams {
+            speed: params.speed.map(|speed| speed / n as f64),
+            ..params.clone()
+        };
+        draw(kind, frames, &self.found_shrunk(n), &contours, &params)
     }
 
     fn motion_file(&self, found: &Interpretation) -> MotionFile {
@@ -329,6 +374,7 @@ impl Solver {
 
     fn change(&mut self) -> &mut crate::Solver {
         self.found.take();
+        self.shrunk.take();
         &mut self.solver
     }
 }

@@ -222,7 +222,12 @@ test("catalogues say enough to build a form from", () => {
     for (const preset of option.presets)
       solver(JSON.stringify({ preset, [key]: defaults[preset] })).free();
   }
-  assert.deepEqual(JSON.parse(limits()), { minSide: 16, maxSide: 4096, maxCurves: 7 });
+  assert.deepEqual(JSON.parse(limits()), {
+    minSide: 16,
+    maxSide: 30000,
+    maxPixels: 100_000_000,
+    maxCurves: 7,
+  });
 });
 
 test("a panic leaves its reason behind", () => {

@@ -4,8 +4,9 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::file::motion::{MotionFile, RegionMotion, Seconds};
+use relievo::file::parts::Parts;
 use relievo::file::result::{self, ResultFiles};
-use relievo::file::{flo, pfm, png};
+use relievo::file::{flo, kitti, pfm, png};
 use relievo::{Error, Flow, Grid, Interpretation, MotionModel, scene};
 
 fn flow() -> Flow {
@@ -70,7 +71,7 @@ fn malformed_flow_is_refused() {
         flo::read(&[&good[..], &[0]].concat(), "a.flo"),
         "need 132 bytes",
     );
-    for side in [i32::MAX, 4097, 0, -1] {
+    for side in [i32::MAX, 30_001, 0, -1] {
         let mut huge = good.clone();
         huge[4..8].copy_from_slice(&side.to_le_bytes());
         refused(flo::read(&huge, "a.flo"), "sides must lie");
@@ -277,4 +278,59 @@ fn motions_go_to_the_regions_that_they_are_labelled_for() {
         let error = with(bad).unwrap_err();
         assert!(matches!(error, Error::Regions { last: 2, .. }), "{error}");
     }
+}
+
+#[test]
+fn kittis_flow_is_read_to_a_64th_of_a_pixel() {
+    let value = |x: u32, y: u32| {
+        [
+            32_768 + 96 * x as u16 - 7,
+            32_768 - 640 + y as u16,
+            u16::from(y > 1),
+        ]
+    };
+    let picture = image::ImageBuffer::<image::Rgb<u16>, Vec<u16>>::from_fn(9, 7, |x, y| {
+        image::Rgb(value(x, y))
+    });
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let png = image::ImageFormat::Png;
+    image::DynamicImage::from(picture)
+        .write_to(&mut bytes, png)
+        .unwrap();
+    let flow = kitti::read(bytes.get_ref(), "flow.png").unwrap();
+    for y in 0..7 {
+        for x in 0..9 {
+            let (u, v) = (flow.u[(x, y)], flow.v[(x, y)]);
+            if y > 1 {
+                assert_eq!(
+                    (u, v),
+                    (1.5 * x as f32 - 7.0 / 64.0, -10.0 + y as f32 / 64.0)
+                );
+            } else {
+                assert!(u.is_nan() && v.is_nan());
+            }
+        }
+    }
+    let grey = png::write_labels(&Grid::new(4, 4, 1)).unwrap();
+    let error = kitti::read(&grey, "flow.png").unwrap_err().to_string();
+    assert!(error.contains("16-bit"), "{error}");
+}
+
+#[test]
+fn whatever_there_is_of_a_result_is_read() {
+    let (truth, _, files) = saved();
+    let only = |names: &[&str]| {
+        let named = files.iter().filter(|(name, _)| names.contains(name));
+        let named = named.map(|(name, bytes)| ((*name).to_owned(), bytes.clone()));
+        Parts::read(&named.collect::<Vec<_>>())
+    };
+    let flow = only(&["flow.flo"]).unwrap();
+    assert_eq!(
+        (flow.flow.as_ref(), flow.labels.as_ref()),
+        (Some(&truth.flow), None)
+    );
+    let labels = only(&["labels.png", "motion.json"]).unwrap();
+    assert_eq!(labels.labels, Some(truth.labels.clone()));
+    assert_eq!(labels.motions, Some(truth.motions.clone()));
+    assert_eq!(only(&[]), Err(Error::NothingToScore));
 }

@@ -6,14 +6,27 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 use std::io::Cursor;
 
 use image::{DynamicImage, ImageFormat};
-use relievo::frames::{MAX_SIDE, MIN_SIDE};
+use relievo::frames::{MAX_PIXELS, MAX_SIDE, MIN_SIDE, MOST_WORKED};
 use relievo::{Error, Frame, FramePair, Grid};
+use tiff::encoder::TiffEncoder;
+use tiff::encoder::colortype::{Gray16, RGB8};
 
 const W: usize = 24;
 const H: usize = 18;
 
 fn encode(picture: &DynamicImage, format: ImageFormat) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
+    if format == ImageFormat::Tiff {
+        let mut tiff = TiffEncoder::new(&mut bytes).unwrap();
+        let (width, height) = (picture.width(), picture.height());
+        match picture {
+            DynamicImage::ImageRgb8(p) => tiff.write_image::<RGB8>(width, height, p.as_raw()),
+            DynamicImage::ImageLuma16(p) => tiff.write_image::<Gray16>(width, height, p.as_raw()),
+            other => panic!("{:?}", other.color()),
+        }
+        .unwrap();
+        return bytes.into_inner();
+    }
     picture.write_to(&mut bytes, format).unwrap();
     bytes.into_inner()
 }
@@ -225,7 +238,7 @@ fn png_that_claims(width: u32, height: u32) -> Vec<u8> {
 #[test]
 fn sizes_outside_the_limits_are_refused_from_the_header_alone() {
     let over = MAX_SIDE as u32 + 1;
-    for (w, h) in [(over, 20), (20, over), (20_000, 20_000)] {
+    for (w, h) in [(over, 20), (20, over)] {
         let pnm = format!("P5 {w} {h} 255\n").into_bytes();
         for bytes in [pnm, png_that_claims(w, h)] {
             let expected = Error::Size {
@@ -244,6 +257,15 @@ fn sizes_outside_the_limits_are_refused_from_the_header_alone() {
             }
         }
     }
+    let many = Error::Pixels {
+        name: "huge".to_owned(),
+        width: 20_000,
+        height: 20_000,
+    };
+    let pnm = b"P5 20000 20000 255\n";
+    assert_eq!(Frame::decode(pnm, "huge").err(), Some(many.clone()));
+    let most = format!("{} megapixels", MAX_PIXELS / 1_000_000);
+    assert!(many.to_string().contains(&most), "{many}");
     // Ten gigabytes, which some machines can address, and sixteen million terabytes.
     for bytes in [
         png_that_claims(100_000, 100_000),
@@ -355,4 +377,32 @@ fn a_frame_without_contrast_is_refused_and_named() {
     assert_eq!(which(textured(0.0), flat(10.0)), "the second");
     // Nothing to see comes before nothing moves.
     assert_eq!(which(flat(10.0), flat(10.0)), "the first");
+}
+
+#[test]
+fn a_large_frame_keeps_its_colours_and_the_brightness_that_is_worked_on() {
+    let (width, height) = (5003, 4001);
+    let pixels: Vec<u8> = (0..width * height)
+        .map(|i| (i % width / 8 + i / width / 4) as u8)
+        .collect();
+    let mut bytes = format!("P5 {width} {height} 255\n").into_bytes();
+    bytes.extend(&pixels);
+    let frame = Frame::decode(&bytes, "large").unwrap();
+    assert_eq!((frame.width(), frame.height()), (width, height));
+    assert_eq!(frame.grey_factor(), 2);
+    assert_eq!((frame.grey.width(), frame.grey.height()), (2501, 2000));
+    assert!(frame.grey.len() <= MOST_WORKED);
+    let small = frame.shrunk(4);
+    assert_eq!((small.width(), small.height()), (1250, 1000));
+    assert_eq!(small.grey.len(), small.rgb.len());
+    for (x, y) in [(0, 0), (7, 900), (1249, 999), (640, 3)] {
+        assert_eq!(
+            frame.rgb[(4 * x, 4 * y)],
+            [pixels[4 * y * width + 4 * x]; 3]
+        );
+        let own = (0..16).map(|i| f32::from(pixels[(4 * y + i / 4) * width + 4 * x + i % 4]));
+        let mean = own.sum::<f32>() / 16.0;
+        assert!((small.grey[(x, y)] - mean).abs() < 1e-3);
+        assert!((f32::from(small.rgb[(x, y)][1]) - mean).abs() <= 0.5);
+    }
 }

@@ -12,12 +12,15 @@ mod camera;
 mod constraint;
 mod derivatives;
 mod drawn;
+mod fields;
 mod files;
+mod formats;
 mod frames;
 // WebAssembly reads no files.
 mod horn_schunck;
 #[cfg(not(target_arch = "wasm32"))]
 mod hostile;
+mod levels;
 mod lighting;
 mod options;
 mod pyramid;

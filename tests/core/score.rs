@@ -4,8 +4,9 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use glam::DVec3;
-use relievo::score::{compare, compare_flow};
-use relievo::{Camera, Flow, Grid, Interpretation, RigidMotion};
+use relievo::file::parts::Parts;
+use relievo::score::{compare, compare_flow, compare_known};
+use relievo::{Camera, Error, Flow, Grid, Interpretation, RigidMotion};
 
 /// 4×2 pixels, the right half region 1, flow (1, 0), Z = 2 on the left and 1, 3 by rows on the right.
 fn truth() -> Interpretation {
@@ -166,4 +167,50 @@ fn depth_that_was_not_found_counts_as_off_by_all_of_it() {
     found.depth = found.depth.map(|_| f32::INFINITY);
     let error = compare(&found, &truth()).unwrap().depth_error[0];
     near(error, 1.0);
+}
+
+#[test]
+fn flow_alone_is_scored_where_both_know_it() {
+    let flow = |u: f32| Flow {
+        u: Grid::from_fn(5, 4, |x, _| if x == 0 { f32::NAN } else { u }),
+        v: Grid::new(5, 4, 0.0),
+    };
+    let [found, known] = [2.5, 2.0].map(|u| Parts {
+        flow: Some(flow(u)),
+        ..Parts::default()
+    });
+    let scores = compare_known(&found, &known).unwrap();
+    near(scores.aee, 0.5);
+    assert_eq!((scores.labels_wrong, scores.iou), (None, vec![None]));
+    // Labels of only one of the two are not compared.
+    let all = Parts::from(&truth());
+    assert_eq!(
+        compare_known(
+            &found,
+            &Parts {
+                flow: None,
+                ..all.clone()
+            }
+        ),
+        Err(Error::NothingShared)
+    );
+    let labels = Parts {
+        labels: all.labels.clone(),
+        ..Parts::default()
+    };
+    let scores = compare_known(&labels, &all).unwrap();
+    assert_eq!((scores.labels_wrong, scores.aee), (Some(0.0), None));
+    assert_eq!(scores.iou, [Some(1.0), Some(1.0)]);
+    assert_eq!(scores.depth_error, [None, None]);
+}
+
+#[test]
+fn depth_without_labels_is_one_region() {
+    let depth = |factor: f32| Parts {
+        depth: Some(Grid::from_fn(6, 5, |x, y| factor * (1.0 + (x + y) as f32))),
+        ..Parts::default()
+    };
+    let scores = compare_known(&depth(3.0), &depth(1.0)).unwrap();
+    assert_eq!(scores.depth_error.len(), 1);
+    near(scores.depth_error[0], 0.0);
 }

@@ -4,6 +4,7 @@
 mod support;
 
 mod best;
+mod detail;
 mod extremes;
 mod films;
 mod passes;

@@ -102,7 +102,7 @@ fn a_curve_that_vanishes_is_reported_and_the_rest_goes_on() {
 #[test]
 fn frames_that_hold_no_numbers_end_as_diverged() {
     let (sequence, _) = small();
-    let mut grey = sequence.frames[1].grey.clone();
+    let mut grey = (*sequence.frames[1].grey).clone();
     grey[(20, 20)] = f32::NAN;
     let [first, _] = sequence.frames.clone();
     let broken = FramePair::new(first, Frame::from_grey(grey).unwrap()).unwrap();

@@ -1,0 +1,45 @@
+//! What a user should know of frames that are taken all the same.
+
+use serde::Serialize;
+
+/// A remark on two frames.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Note {
+    /// All that is seen lies within so few steps of brightness that detail is lost.
+    Faint {
+        /// Steps between the darkest and the brightest.
+        levels: usize,
+    },
+    /// Even and odd rows show different moments.
+    Interlaced,
+    /// The files' numbers have room for much brighter light.
+    Stretched {
+        /// Share of the files' range that is used, 0–1.
+        share: f64,
+    },
+}
+
+impl std::fmt::Display for Note {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Faint { levels } => write!(
+                f,
+                "The frames are faint: all that they show lies within {levels} levels of brightness. Both are stretched alike; fine relief and small motions may be lost."
+            ),
+            Self::Interlaced => write!(
+                f,
+                "The first frame seems to be interlaced: even and odd rows show different moments. Take its two fields instead."
+            ),
+            Self::Stretched { share } => write!(
+                f,
+                "The frames use {:.1} % of their files' range of brightness. Both are stretched alike.",
+                100.0 * share
+            ),
+        }
+    }
+}
