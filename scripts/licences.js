@@ -8,7 +8,10 @@ import { setup } from "./setup.js";
 
 export const FILE = "www/public/licences.txt";
 
-/** Licences that ask for no more than that their text goes along, in the order of preference. */
+/**
+ * Licences that ask for no more than that their text goes along, in the order of preference; the last one for parts
+ * that are used unchanged, and for which it is said where their source is.
+ */
 const ACCEPTED = [
   "MIT",
   "Apache-2.0",
@@ -18,6 +21,7 @@ const ACCEPTED = [
   "BSD-2-Clause",
   "0BSD",
   "Unicode-3.0",
+  "MPL-2.0",
 ];
 
 /** @typedef {{ name: string, version: string, licence: string, text: string }} Part */
@@ -60,8 +64,14 @@ function bundled() {
     ]);
   return [...new Set(imports.map(([, name]) => String(name)))].map((name) => {
     const folder = join(root, "node_modules", name);
-    const { version, license } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
-    return part(name, version, license, folder);
+    const { version, license, repository } = JSON.parse(
+      readFileSync(join(folder, "package.json"), "utf8"),
+    );
+    const one = part(name, version, license, folder);
+    const source = String(repository?.url ?? repository).replace(/^git\+/, "");
+    return one.licence === "MPL-2.0"
+      ? { ...one, text: `${name} is used unchanged; its source is at ${source}\n\n${one.text}` }
+      : one;
   });
 }
 

@@ -266,20 +266,11 @@ fn depth_error(pairs: &[(f64, f64)]) -> Option<f64> {
     if pairs.is_empty() {
         return None;
     }
-    let found = |depth: f64| depth.is_finite() && depth > 0.0;
-    let known = pairs.iter().filter(|(depth, _)| found(*depth));
-    let mut ratios: Vec<f64> = known.map(|(depth, z)| z / depth).collect();
-    ratios.sort_by(f64::total_cmp);
-    let middle = ratios.len() / 2;
-    let a = match ratios.len() {
-        0 => 0.0,
-        odd if odd % 2 == 1 => ratios[middle],
-        _ => (ratios[middle - 1] + ratios[middle]) / 2.0,
-    };
+    let a = factor(pairs).unwrap_or(0.0);
     let sum: f64 = pairs
         .iter()
         .map(|&(depth, z)| {
-            if found(depth) {
+            if is_depth(depth) {
                 (a * depth - z).abs() / z
             } else {
                 1.0
@@ -287,6 +278,42 @@ fn depth_error(pairs: &[(f64, f64)]) -> Option<f64> {
         })
         .sum();
     Some(sum / pairs.len() as f64)
+}
+
+fn is_depth(depth: f64) -> bool {
+    depth.is_finite() && depth > 0.0
+}
+
+/// a = median(Z/Ẑ) over the pairs (Ẑ, Z) of which Ẑ was found; `None` where there are none.
+fn factor(pairs: &[(f64, f64)]) -> Option<f64> {
+    let known = pairs.iter().filter(|(depth, _)| is_depth(*depth));
+    let mut ratios: Vec<f64> = known.map(|(depth, z)| z / depth).collect();
+    ratios.sort_by(f64::total_cmp);
+    let middle = ratios.len() / 2;
+    match ratios.len() {
+        0 => None,
+        odd if odd % 2 == 1 => Some(ratios[middle]),
+        _ => Some((ratios[middle - 1] + ratios[middle]) / 2.0),
+    }
+}
+
+/// For each region of `found` the factor that brings its depth to the true one, a = median(Z/Ẑ) over the pixels that
+/// both give to it; 1 where there are none.
+///
+/// # Errors
+/// [`Error::TruthDiffers`] when the two are of different sizes.
+pub fn depth_factors(found: &Interpretation, truth: &Interpretation) -> Result<Vec<f64>, Error> {
+    same_size(&found.labels, &truth.labels)?;
+    let shared = |k: usize| -> Vec<(f64, f64)> {
+        let own = |labels: &Grid<u8>, i: usize| usize::from(labels.data()[i]) == k;
+        (0..found.labels.len())
+            .filter(|&i| own(&found.labels, i) && own(&truth.labels, i))
+            .map(|i| (found.depth.data()[i].into(), truth.depth.data()[i].into()))
+            .filter(|&(_, z): &(f64, f64)| is_depth(z))
+            .collect()
+    };
+    let regions = 0..found.regions();
+    Ok(regions.map(|k| factor(&shared(k)).unwrap_or(1.0)).collect())
 }
 
 /// Angle between two vectors in degrees, `None` if either is zero. By both sine and cosine: the

@@ -2,7 +2,7 @@
 
 import { store, type State } from "./store";
 import type { Setting } from "./memory/setting";
-import type { Found, Opened, Setup, Source } from "./worker/protocol";
+import type { Followed, Found, Opened, Setup, Source } from "./worker/protocol";
 
 /**
  * Whether two pairs are of the same frames, perhaps the other way round: what was drawn on the one holds for
@@ -31,7 +31,7 @@ export function adopt(
     frames: opened.frames,
     names: opened.names,
     truth: opened.truth,
-    ...(keep ? {} : drawn(opened.setup)),
+    ...(keep ? {} : { ...drawn(opened.setup), focalFrom: opened.focalFrom }),
     running: false,
     started: found !== null,
     report: found?.report ?? null,
@@ -59,6 +59,22 @@ function seen({ view, viewParams, scales, pace }: Partial<Setting>): Partial<Sta
     ...(scales && { scales }),
     ...(pace !== undefined && { pace }),
   };
+}
+
+/** The following pair of a film: what was found in the last one is where the next begins. */
+export function follows(source: Source & { kind: "files" }, { frames, shapes }: Followed): void {
+  store.state.frames?.forEach((frame) => frame.close());
+  const { camera } = store.state;
+  store.update({
+    source,
+    frames,
+    names: [source.first.name, source.second.name],
+    ...drawn({ shapes, camera, options: {} }),
+    focalFinding: store.state.focalFinding,
+    running: false,
+    showing: "first",
+    tool: "select",
+  });
 }
 
 /** What a pair brings with it, as if somebody had just drawn it. */

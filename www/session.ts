@@ -9,7 +9,7 @@ import { during } from "./busy";
 import { announce } from "./dom";
 import { presentFound } from "./memory/held";
 import type { Setting } from "./memory/setting";
-import { adopt, sameFrames } from "./opened";
+import { adopt, follows, sameFrames } from "./opened";
 import { paceOf } from "./pace";
 import { sceneOf } from "./scenes";
 import { store, type State } from "./store";
@@ -20,6 +20,7 @@ import { Client, Ended, type Remote } from "./worker/client";
 import type {
   Failure,
   Found,
+  FrameFile,
   MeshData,
   Part,
   Progress,
@@ -122,6 +123,20 @@ async function openWith(
     if (keep || same || name !== "Error" || error instanceof Ended) throw error;
     return { opened: await service.open(source, plain, null), keep, refused: message };
   }
+}
+
+/** Goes on to the next pair of a film, `next` after the second frame, from what was found; `false` when it is refused. */
+export function follow(next: FrameFile, note: string): Promise<boolean> {
+  return attempt("Taking up the next pair", () =>
+    client.inTurn(async (service) => {
+      const { source } = store.state;
+      if (source?.kind !== "files") return;
+      const followed = await service.follow(next);
+      forgetAsked();
+      follows({ kind: "files", first: source.second, second: next, note }, followed);
+      await look();
+    }),
+  );
 }
 
 /** Whether a sequence was asked for since the state was `then`, and was not refused. */

@@ -4,12 +4,14 @@
  * Anything may read it and watch a part of it; commands in `session.ts` and `curves.ts` change it.
  */
 
+import type { Film } from "./intake/film";
 import type { Session } from "./memory/database";
 import type {
   Camera,
   Catalogues,
   Contour,
   Found,
+  FrameFile,
   OptionValues,
   Report,
   ScoreTable,
@@ -19,6 +21,13 @@ import type {
 
 export type Tool = "select" | "circle" | "freehand" | "polygon";
 export type Showing = "first" | "second" | "flicker";
+
+/** A film, and the pair of its frames that was taken last. */
+export interface Reel {
+  film: Film;
+  /** Which frames, and their files; `null` until a pair was taken. */
+  pair: { at: [number, number]; files: [FrameFile, FrameFile] } | null;
+}
 
 /** A frame of the user's own that waits for its partner. */
 export interface Slot {
@@ -78,6 +87,8 @@ export interface State {
   truth: boolean;
   /** Frames of the user's own, waiting until both are there and fit. */
   slots: [Slot | null, Slot | null];
+  /** The clip, animation or pile of photos that was opened last. */
+  reel: Reel | null;
 
   /** Initial curves; `shapes[k]` starts region k + 1. */
   shapes: Shape[];
@@ -87,6 +98,8 @@ export interface State {
   /** What the last look for curves came to, until they change. */
   finding: string | null;
   camera: Camera;
+  /** A sentence: where the pair's focal length came from when it was opened. */
+  focalFrom: string;
   /** What the last look for the focal length came to, until it changes. */
   focalFinding: string | null;
   options: OptionValues;
@@ -142,8 +155,8 @@ export class Store {
     for (const react of this.reactions) react();
   }
 
-  /** Calls `react` now, and again whenever one of the selected values is another than before. */
-  watch(select: (state: State) => readonly unknown[], react: (state: State) => void): void {
+  /** Calls `react` now, and again whenever one of the selected values is another than before; gives what ends that. */
+  watch(select: (state: State) => readonly unknown[], react: (state: State) => void): () => void {
     let last: readonly unknown[] | null = null;
     const check = () => {
       const next = select(this.current);
@@ -153,6 +166,9 @@ export class Store {
     };
     this.reactions.push(check);
     check();
+    return () => {
+      this.reactions = this.reactions.filter((one) => one !== check);
+    };
   }
 }
 
@@ -168,12 +184,14 @@ export const store = new Store({
   names: ["", ""],
   truth: false,
   slots: [null, null],
+  reel: null,
   shapes: [],
   selected: null,
   past: [],
   future: [],
   finding: null,
   camera: { focal: 320 },
+  focalFrom: "",
   focalFinding: null,
   options: {},
   pace: null,

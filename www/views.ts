@@ -126,7 +126,7 @@ export const VIEWS: View[] = [
   {
     id: "compare",
     label: "Compare",
-    hint: "The truth beside what was found, in the same colours.",
+    hint: "The truth beside what was found, in the same colours; each region's depth in the truth's unit.",
     kinds: ({ compare }) => [compare],
     settings: () => [
       {
@@ -175,7 +175,12 @@ export function wantedBy(state: Readonly<State>): Omit<Wanted, "id"> {
   const params = wantedParams(state);
   return {
     view: nameOf(state),
-    pictures: asks(state).map(([of, kind]) => ({ of, kind, params })),
+    pictures: asks(state).map(([of, kind]) => ({
+      of,
+      kind,
+      params,
+      compared: state.view === "compare",
+    })),
     longest: screenSide(),
     mesh: state.view === "relief" ? params : null,
   };

@@ -4,6 +4,7 @@ mod background;
 mod block_search;
 mod box_mean;
 mod curves;
+mod displacement;
 mod epipolar;
 mod focal;
 mod lattice;
@@ -18,6 +19,7 @@ mod segments;
 
 pub use box_mean::{box_mean, less_box_mean};
 pub use curves::find_curves;
+pub use displacement::{Displacement, Verdict, displacement};
 pub use epipolar::{EpipolarMotion, epipolar_motion};
 pub use focal::{FocalLength, focal_length};
 pub use matches::{Match, matches};

@@ -14,8 +14,8 @@ const HATCHING: [u8; 3] = [122, 124, 130];
 /// Confidence from which a depth is shown without fading.
 const FULL: f32 = 0.5;
 
-/// Depth in colours of [`ViewParams::palette`], linear in 1/Z over the robust span of the whole
-/// frame or of each region. Depth that is not observable fades into hatched grey.
+/// Depth in colours of [`ViewParams::palette`], linear in 1/Z over [`ViewParams::span`] or the robust
+/// span of the whole frame or of each region. Depth that is not observable fades into hatched grey.
 ///
 /// # Errors
 /// [`Error::Choice`] for an unknown palette.
@@ -23,7 +23,10 @@ pub fn depth(found: &Interpretation, params: &ViewParams) -> Result<Picture, Err
     let palette = Palette::named(&params.palette)?;
     let regions = found.labels.data().iter().copied().max().unwrap_or(0);
     let regions = usize::from(regions) + 1;
-    let spans: Vec<Option<Span>> = if params.per_region {
+    let spans: Vec<Option<Span>> = if let Some(ends) = params.span {
+        let [far, near] = ends.map(|rho| rho as f32);
+        vec![Some(Span { far, near }); regions]
+    } else if params.per_region {
         let of_region = |k| Span::of(found, false, |i| usize::from(found.labels.data()[i]) == k);
         (0..regions).map(of_region).collect()
     } else {

@@ -7,6 +7,7 @@
 mod anaglyph;
 mod arrows;
 mod colour;
+mod compare;
 mod depth;
 mod flow;
 mod foreshortening;
@@ -25,6 +26,7 @@ mod tears;
 pub use anaglyph::{GLASSES, Glasses, anaglyph, dubois};
 pub use arrows::arrows;
 pub use colour::{decode, encode, luminance};
+pub use compare::{aligned, same_colours};
 pub use depth::depth;
 pub use flow::{flow, wheel};
 pub use mask::{confidence, occlusion};

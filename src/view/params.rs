@@ -40,6 +40,8 @@ pub struct ViewParams {
     pub palette: String,
     /// Whether each region's depth fills the palette on its own.
     pub per_region: bool,
+    /// Least and greatest 1/Z that the palette goes over; null: chosen from the depth shown.
+    pub span: Option<[f64; 2]>,
     /// How strongly regions are tinted, 0–1.
     pub tint: f64,
     /// Brightness left to a frame beneath arrows and masks, 0–1.
@@ -79,6 +81,7 @@ impl Default for ViewParams {
             scales: Vec::new(),
             palette: "ember".to_owned(),
             per_region: false,
+            span: None,
             tint: 0.22,
             dim: 0.5,
             legend: true,
@@ -120,6 +123,9 @@ impl ViewParams {
         for &scale in &self.scales {
             within("scales", scale, 1e-3, 1e3)?;
         }
+        let [far, near] = self.span.unwrap_or([0.0, 1.0]);
+        within("span", far, 0.0, 1e6)?;
+        within("span", near - far, 1e-9, 1e6)?;
         within("tint", self.tint, 0.0, 1.0)?;
         within("dim", self.dim, 0.0, 1.0)?;
         within("spacing", self.spacing.unwrap_or(16.0), 4.0, 4096.0)?;

@@ -111,6 +111,19 @@ impl Kept {
         self.picture(&kind.view()?, &params.view_params()?)
     }
 
+    /// The same with each region's depth in the unit of `scene`'s truth.
+    #[wasm_bindgen(js_name = viewAligned)]
+    pub fn view_aligned(
+        &self,
+        kind: &Word,
+        params: &Json,
+        scene: &Scene,
+    ) -> Result<Picture, Error> {
+        let aligned = view::aligned(&self.found, &scene.sequence().truth)?;
+        let frames = [self.pair.first(), self.pair.second()];
+        draw(&kind.view()?, frames, &aligned, &[], &params.view_params()?)
+    }
+
     /// The relief, with the parameters of a view as JSON.
     pub fn mesh(&self, params: &Json) -> Result<Mesh, Error> {
         let params = params.view_params()?;

@@ -32,7 +32,7 @@ pub use mesh::Mesh;
 pub use panic::{panic_for_test, panic_message};
 pub use scene::Scene;
 pub use solver::Solver;
-pub use start::{find_curves, find_focal};
+pub use start::{displacement, find_curves, find_focal};
 pub use working::working_sizes;
 
 use serde::Serialize;

@@ -14,6 +14,7 @@ use crate::frames::FramePair;
 use crate::horn_schunck::interpreted;
 use crate::interpretation::Interpretation;
 use crate::scene::{self, Sequence};
+use crate::view;
 
 /// A built-in sequence, rendered.
 #[wasm_bindgen]
@@ -78,6 +79,14 @@ impl Scene {
             &[],
             &params.view_params()?,
         )
+    }
+
+    /// `params` with the ends of the colours set as the truth would have them, where they are left open: what is drawn
+    /// with them can be compared with the truth by eye.
+    #[wasm_bindgen(js_name = sameColours)]
+    pub fn same_colours(&self, params: &Json) -> Result<String, Error> {
+        let params = params.view_params()?;
+        Ok(write(&view::same_colours(&self.sequence.truth, &params)))
     }
 
     /// Frames and truth, as an array of files `{name, bytes}`.

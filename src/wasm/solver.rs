@@ -219,6 +219,20 @@ impl Solver {
         self.picture(&kind.view()?, &params.view_params()?)
     }
 
+    /// The same with each region's depth in the unit of `scene`'s truth: two frames do not tell it.
+    #[wasm_bindgen(js_name = viewAligned)]
+    pub fn view_aligned(
+        &self,
+        kind: &Word,
+        params: &Json,
+        scene: &Scene,
+    ) -> Result<Picture, Error> {
+        let pair = self.solver.pair();
+        let aligned = view::aligned(self.found(), &scene.sequence().truth)?;
+        let frames = [pair.first(), pair.second()];
+        draw(&kind.view()?, frames, &aligned, &[], &params.view_params()?)
+    }
+
     /// The relief, with the parameters of a view as JSON.
     pub fn mesh(&self, params: &Json) -> Result<Mesh, Error> {
         let params = params.view_params()?;

@@ -1,4 +1,4 @@
-//! Curves to start from and a focal length, found in the frames.
+//! Curves to start from and a focal length, found in the frames; whether two frames go together.
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -24,4 +24,18 @@ pub fn find_focal(first: &Frame, second: &Frame, camera: &Json) -> Result<String
     let pair = FramePair::new(first.0.clone(), second.0.clone())?;
     let camera = camera_of(&pair, camera)?;
     Ok(write(&init::focal_length(&pair, &camera)))
+}
+
+/// How far things move between two frames, and whether that is enough to see depth by and little enough to follow: a
+/// `Displacement` as JSON. Frames of a few hundred pixels a side are enough, and quick.
+#[wasm_bindgen]
+pub fn displacement(first: &Frame, second: &Frame) -> Result<String, Error> {
+    let [first, second] = [&first.0.grey, &second.0.grey];
+    if !first.same_size(second) {
+        return Err(Error::FramesDiffer {
+            first: (first.width(), first.height()),
+            second: (second.width(), second.height()),
+        });
+    }
+    Ok(write(&init::displacement(first, second)))
 }

@@ -3,7 +3,7 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use relievo::init::{find_curves, focal_length};
+use relievo::init::{Verdict, displacement, find_curves, focal_length};
 use relievo::scene::{self, Sequence};
 use relievo::{Camera, Frame, FramePair, Grid, Shape};
 
@@ -145,4 +145,51 @@ fn frames_of_any_size_and_odd_cameras_are_taken() {
         assert!(find_curves(&frames, &camera).len() <= 7);
         focal_length(&frames, &camera);
     }
+}
+
+#[test]
+fn displacement_is_that_of_the_faster_things() {
+    for name in ["blocks", "columns"] {
+        let Sequence { frames, truth, .. } = scene::render(name, W, H).unwrap();
+        let flow = truth.flow.u.data().iter().zip(truth.flow.v.data());
+        let mut speeds: Vec<f32> = flow.map(|(u, v)| u.hypot(*v)).collect();
+        speeds.retain(|speed| speed.is_finite());
+        speeds.sort_by(f32::total_cmp);
+        let expected = f64::from(speeds[speeds.len() * 99 / 100]) / W as f64;
+        let found = displacement(&frames[0].grey, &frames[1].grey);
+        assert!(
+            (found.share - expected).abs() < 0.15 * expected,
+            "{name}: {found:?}, {expected}"
+        );
+        assert!(found.followed > 0.9, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn displacement_tells_too_little_from_too_much() {
+    let moved = |u: f64| {
+        let frame = |t: f64| {
+            Grid::from_fn(W, H, |x, y| {
+                texture(x as f64 - t * u, y as f64 + t * 0.3 * u) as f32
+            })
+        };
+        displacement(&frame(0.0), &frame(1.0)).verdict
+    };
+    assert_eq!(moved(0.2), Verdict::Small);
+    // A small body before scenery at rest is motion, too.
+    let body = square(11.0, (4.0, 0.0), 1.0);
+    let found = displacement(&body.first().grey, &body.second().grey);
+    assert_eq!(found.verdict, Verdict::Fit, "{found:?}");
+    assert_eq!(moved(4.0), Verdict::Fit);
+    assert_eq!(moved(24.0), Verdict::Large);
+    let other = scene::render("blocks", W, H).unwrap().frames[0]
+        .grey
+        .clone();
+    let cut = displacement(
+        &Grid::from_fn(W, H, |x, y| texture(x as f64, y as f64) as f32),
+        &other,
+    );
+    assert_eq!(cut.verdict, Verdict::Large, "{cut:?}");
+    let black = Grid::new(W, H, 0.0);
+    assert_eq!(displacement(&black, &black).verdict, Verdict::Small);
 }

@@ -131,3 +131,59 @@ test("the keyboard reaches everything and always shows where it is", async ({ op
   }
   expect(await read(page, (state) => state.message)).toBeNull();
 });
+
+test("the link to one's own frames leaves the masthead where it is", async ({ opened: page }) => {
+  await page.setViewportSize({ width: 1280, height: 800 });
+  await page.getByRole("link", { name: "Your own frames" }).click();
+  await expect(page.locator("#frames-title")).toBeInViewport({ ratio: 1 });
+  await expect(page.locator(".masthead")).toBeInViewport({ ratio: 1 });
+  expect(await page.evaluate(() => scrollY)).toBe(0);
+  await expect(page.locator("#film-file")).toBeFocused();
+});
+
+for (const [what, size] of [
+  ["on a phone held sideways", { width: 844, height: 390 }],
+  ["on a small phone held sideways", { width: 667, height: 375 }],
+  ["enlarged twice", { width: 640, height: 400 }],
+] as const) {
+  test(`Run is in sight ${what}`, async ({ page }) => {
+    await page.setViewportSize(size);
+    await open(page);
+    const run = page.getByRole("button", { name: "Run" });
+    await expect(run).toBeInViewport({ ratio: 1 });
+    await expect(page.locator("#stage")).toBeInViewport({ ratio: 0.4 });
+    await runPasses(page, 1);
+    await expect(page.getByRole("button", { name: /Run/ })).toBeInViewport({ ratio: 1 });
+    expect(await faults(page)).toEqual([]);
+    expect(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth)).toBe(
+      true,
+    );
+  });
+}
+
+test("in forced colours what is chosen looks different from what is not", async ({ page }) => {
+  await page.emulateMedia({ forcedColors: "active" });
+  await open(page);
+  await page
+    .getByRole("button", { name: /^Curve 1/ })
+    .first()
+    .click();
+  const differ = (chosen: string, other: string) =>
+    page.evaluate(
+      ([chosen, other]) => {
+        const look = (selector: string) => {
+          const { backgroundColor, color, outlineStyle } = getComputedStyle(
+            document.querySelector(selector)!,
+          );
+          return [backgroundColor, color, outlineStyle].join();
+        };
+        return look(chosen!) !== look(other!);
+      },
+      [chosen, other],
+    );
+  expect(await differ(".tools label:has(:checked)", ".tools label:not(:has(:checked))")).toBe(true);
+  expect(await differ("#views input:checked + span", "#views input:not(:checked) + span")).toBe(
+    true,
+  );
+  expect(await differ(".region.selected", ".region:not(.selected)")).toBe(true);
+});

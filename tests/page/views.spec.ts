@@ -4,7 +4,8 @@ import { readFile } from "node:fs/promises";
 
 import type { Page } from "@playwright/test";
 
-import { chooseView, drawn, expect, look, read, solve, test, until } from "./helpers";
+import type { State } from "../../www/store";
+import { chooseView, drawn, expect, look, read, ready, solve, test, until } from "./helpers";
 
 const FLAT = ["Depth", "Motion", "Anaglyph", "Labels", "Confidence", "Occlusion", "Compare"];
 
@@ -201,4 +202,42 @@ test("the view and the results can be taken away", async ({ opened: page }) => {
     .evaluate((a) => (a as HTMLAnchorElement).href);
   const motion = await page.evaluate(async (url) => (await fetch(url)).json(), address);
   expect(motion.regions).toHaveLength(await read(page, (state) => state.shapes.length + 1));
+});
+
+test("compared depth has the truth's colours whatever unit a region has", async ({
+  opened: page,
+}) => {
+  await solve(page);
+  await chooseView(page, "Compare");
+  await page.locator("#setting-compare").selectOption("depth");
+  await until(page, ({ pictured, pictures }) => {
+    return pictured === "compare depth" && pictures.every((one) => one !== null);
+  });
+  /** Mean difference between what was found and the truth, in levels, where both are in colour. */
+  const apart = () =>
+    page.evaluate(() => {
+      const { pictures } = (window as unknown as { relievo: State }).relievo;
+      const [truth, found] = pictures.map((picture) => {
+        const canvas = document.createElement("canvas");
+        [canvas.width, canvas.height] = [picture!.width, picture!.height];
+        const context = canvas.getContext("2d")!;
+        context.drawImage(picture!, 0, 0);
+        return context.getImageData(0, 0, canvas.width, canvas.height).data;
+      });
+      let [sum, count] = [0, 0];
+      for (let i = 0; i < truth!.length; i += 4) {
+        // Hatching is grey: no depth is told there.
+        if (found![i]! - found![i + 2]! < 12 || truth![i]! - truth![i + 2]! < 12) continue;
+        count += 3;
+        for (let k = 0; k < 3; k++) sum += Math.abs(truth![i + k]! - found![i + k]!);
+      }
+      return { apart: sum / count, share: (4 * count) / (3 * truth!.length) };
+    });
+  const first = await apart();
+  expect(first.share).toBeGreaterThan(0.05);
+  expect(first.apart).toBeLessThan(16);
+  await page.locator("#scale-1").fill("2");
+  await drawn(page);
+  await ready(page);
+  expect((await apart()).apart).toBeCloseTo(first.apart, 1);
 });

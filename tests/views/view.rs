@@ -88,6 +88,7 @@ fn unknown_choices_and_numbers_out_of_range_are_refused() {
         of(|p| p.scales = vec![1.0, f64::NAN]),
         of(|p| p.scales = vec![0.0]),
         of(|p| p.speed = Some(0.0)),
+        of(|p| p.span = Some([2.0, 1.0])),
         of(|p| p.magnify = 0),
         of(|p| p.step = Some(0)),
     ] {
@@ -453,4 +454,34 @@ fn the_surface_is_torn_where_depth_leaps_over_some_pixels_and_not_where_it_bulge
     };
     assert_eq!(joins(3.0), 0, "near and far are joined");
     assert!(joins(1.1) > 500, "a bulge is torn");
+}
+
+#[test]
+fn comparing_gives_the_same_depth_the_same_colour_whatever_a_region_s_unit() {
+    let truth = square();
+    let found = truth.scaled(&[3.0, 0.2]);
+    let params = view::same_colours(&truth, &ViewParams::default());
+    let aligned = view::aligned(&found, &truth).unwrap();
+    let [a, b] = [&truth, &aligned].map(|one| show("depth", one, &params));
+    let differing = a.data().iter().zip(b.data());
+    let worst = differing.flat_map(|(p, q)| p.iter().zip(q).map(|(a, b)| a.abs_diff(*b)));
+    assert!(worst.max().unwrap() <= 1);
+    // A region of which a third is twice as far keeps its colours elsewhere.
+    let mut off = truth.clone();
+    let far = off.depth.data_mut();
+    let third = far.len() / 3;
+    far[..third].iter_mut().for_each(|z| *z *= 2.0);
+    let aligned = view::aligned(&off, &truth).unwrap();
+    let c = show("depth", &aligned, &params);
+    assert_eq!(c.data().last(), a.data().last());
+}
+
+#[test]
+fn comparing_gives_the_same_speed_the_same_colour() {
+    let truth = square();
+    let params = view::same_colours(&truth, &ViewParams::default());
+    let mut faster = truth.clone();
+    faster.flow.u.data_mut()[..WIDTH * 4].fill(50.0);
+    let [a, b] = [&truth, &faster].map(|one| show("flow", one, &params));
+    assert_eq!(a.data()[WIDTH * 4..], b.data()[WIDTH * 4..]);
 }

@@ -36,7 +36,11 @@ export function mountCamera(): void {
   );
 
   const set = (camera: Partial<typeof store.state.camera>) => {
-    change({ camera: { ...store.state.camera, ...camera }, focalFinding: null });
+    const { focalFinding } = store.state;
+    change({
+      camera: { ...store.state.camera, ...camera },
+      focalFinding: camera.focal === undefined ? focalFinding : BY_HAND,
+    });
   };
   focal.input.addEventListener("change", () => set({ focal: asNumber(focal.input) ?? 0 }));
   const byAngle = (input: HTMLInputElement) => () => {
@@ -72,9 +76,9 @@ export function mountCamera(): void {
     },
   );
   store.watch(
-    ({ focalFinding }) => [focalFinding],
-    ({ focalFinding }) => {
-      note.textContent = focalFinding ?? GUESSED;
+    ({ focalFinding, focalFrom }) => [focalFinding, focalFrom],
+    ({ focalFinding, focalFrom }) => {
+      note.textContent = focalFinding ?? `${focalFrom} ${BENDS}`.trim();
     },
   );
   store.watch(
@@ -100,8 +104,8 @@ async function findFocal(): Promise<void> {
   else store.update({ focalFinding });
 }
 
-const GUESSED =
-  "Taken from the sequence, or guessed for frames of your own. A wrong f bends depth more than outlines.";
+const BY_HAND = "f is as you set it.";
+const BENDS = "A wrong f bends depth more than outlines.";
 
 /** An empty field is no number: without f the core says what it wants, without centre it takes its own. */
 function asNumber(input: HTMLInputElement): number | undefined {

@@ -1,18 +1,19 @@
-/**
- * The two frames: which they are, and how one brings one's own (picker, drop, paste).
- *
- * A first or second frame of one's own waits in its slot until its partner is there; only then are
- * both opened together, and until they prove good the stage keeps what it shows.
- */
+/** The two frames: which they are, and how one brings one's own (picker, drop, paste, camera). */
 
 import { byId, icon, make } from "../dom";
-import { ask, open, overtaken } from "../session";
-import { store, type Slot, type State } from "../store";
+import { chooseFrom, keep } from "../intake/reel";
+import { inUse, openBoth, swap } from "../intake/slots";
+import { takeAll } from "../intake/take";
+import { ask } from "../session";
+import { store, type State } from "../store";
 
-const ACCEPT = "image/png,image/jpeg,image/webp,image/bmp,image/tiff,.pnm,.pgm,.ppm,.pbm,.pam,.tif";
+// Formats that no browser has a media type for, by their endings.
+const ACCEPT = "image/*,video/*,.pnm,.pgm,.ppm,.pbm,.pam,.mpo,.heic,.heif,.jxl,.mkv,.mov";
 
 export function mountFrames(): void {
   store.watch(({ frames, slots, names, source }) => [frames, slots, names, source], render);
+  mountSources();
+  mountLink();
   mountDrop();
   document.addEventListener("paste", (event) => {
     const files = [...(event.clipboardData?.files ?? [])];
@@ -22,71 +23,49 @@ export function mountFrames(): void {
   });
 }
 
-/** What was on the stage, or about to be, when files were chosen. */
-type Before = Parameters<typeof overtaken>[0];
-
-let taking: Promise<void> = Promise.resolve();
-
-/** One file goes to `side` or the first empty slot; of several, the first two by name. One lot after another. */
-function takeAll(files: File[], side: 0 | 1 | null): Promise<void> {
-  const { source, opening } = store.state;
-  taking = taking.then(() => takeLot(files, side, { source, opening }));
-  return taking;
-}
-
-async function takeLot(files: File[], side: 0 | 1 | null, then: Before): Promise<void> {
-  const chosen = files
-    .toSorted((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }))
-    .slice(0, 2);
-  if (chosen.length === 0) return;
-  const at = chosen.length === 2 ? 0 : (side ?? (store.state.slots[0] ? 1 : 0));
-  // All are read before any takes its slot: beside one that is no image, its partner would be
-  // paired with an older frame.
-  const taken: Slot[] = [];
-  for (const [i, file] of chosen.entries()) {
-    const slot = await take(file, at + i === 0 ? "first frame" : "second frame");
-    if (!slot) return;
-    taken.push(slot);
-  }
-  store.update({
-    slots: store.state.slots.toSpliced(at, taken.length, ...taken) as State["slots"],
-  });
-  // A sequence chosen while files were read is what is wanted.
-  if (!overtaken(then)) await openBoth();
-}
-
-async function take(file: File, unnamed: string): Promise<Slot | null> {
-  const name = file.name || unnamed;
-  return ask(`Reading ${name}`, async (service) => {
-    const bytes = new Uint8Array(await file.arrayBuffer().catch(() => gone(name)));
-    return { name, bytes, ...(await service.preview({ name, bytes })) };
+/** The link in the masthead moves the column of panels where there is one: the window would hide the masthead. */
+function mountLink(): void {
+  const link = document.querySelector<HTMLAnchorElement>('a[href="#frames-panel"]');
+  link?.addEventListener("click", (event) => {
+    event.preventDefault();
+    const panel = byId("frames-panel");
+    const column = panel.closest<HTMLElement>(".panels")!;
+    if (column.scrollHeight > column.clientHeight) {
+      const top = panel.getBoundingClientRect().top - column.getBoundingClientRect().top;
+      column.scrollBy({ top });
+    } else {
+      panel.scrollIntoView();
+    }
+    byId("film-file").focus({ preventScroll: true });
   });
 }
 
-function gone(name: string): never {
-  throw new Error(`${name} cannot be read; it may be a folder, or have been moved or deleted`);
-}
-
-async function openBoth(): Promise<void> {
-  const [first, second] = store.state.slots;
-  if (!first || !second) return;
-  // Copies, since the worker may be restarted and need them again.
-  const file = ({ name, bytes }: Slot) => ({ name, bytes });
-  await open({ kind: "files", first: file(first), second: file(second) }, "Opening your frames");
-}
-
-async function swap(): Promise<void> {
-  const [first, second] = store.state.slots;
-  store.update({ slots: [second, first] });
-  await openBoth();
-}
-
-/** Whether the pair on the stage is the one in the slots. */
-function inUse({ source, slots }: Readonly<State>): boolean {
-  return (
-    source?.kind === "files" &&
-    source.first.bytes === slots[0]?.bytes &&
-    source.second.bytes === slots[1]?.bytes
+/** Where frames come from beside the two places: a clip or many pictures, the camera, the film at hand. */
+function mountSources(): void {
+  const input = byId<HTMLInputElement>("film-file");
+  input.accept = ACCEPT;
+  input.addEventListener("change", () => {
+    void takeAll([...(input.files ?? [])], null);
+    // The same file may be chosen again.
+    input.value = "";
+  });
+  byId("camera-open").addEventListener("click", async () => {
+    const loaded = await ask("Opening the camera", () => import("../intake/camera"));
+    await loaded?.openCamera((film) => {
+      keep(film);
+      void chooseFrom(film);
+    });
+  });
+  const again = byId("film-again");
+  again.addEventListener("click", () => {
+    const { reel } = store.state;
+    if (reel) void chooseFrom(reel.film);
+  });
+  store.watch(
+    ({ reel }) => [reel?.film],
+    ({ reel }) => {
+      again.hidden = reel === null;
+    },
   );
 }
 
@@ -105,7 +84,11 @@ function render(state: Readonly<State>): void {
   note.replaceChildren(explain(state, own));
   if (!own || inUse(state)) return;
   const discard = () => store.update({ slots: [null, null] });
-  if (slots[0] && slots[1]) note.append(" ", button("use", "Use them", openBoth));
+  if (slots[0] && slots[1])
+    note.append(
+      " ",
+      button("use", "Use them", () => openBoth()),
+    );
   note.append(" ", button("discard", "Discard", discard));
 }
 
@@ -117,7 +100,7 @@ function button(id: string, name: string, press: () => unknown): HTMLElement {
 
 function explain(state: Readonly<State>, own: boolean): string {
   if (!own) {
-    return "Bring your own: choose, drop or paste two frames of one film, taken shortly after each other.";
+    return "Bring your own: two pictures taken shortly after each other, or a clip, an animation or the camera to choose them from. Choose, drop or paste.";
   }
   const missing = state.slots[0] ? (state.slots[1] ? null : "second") : "first";
   if (missing) {
@@ -173,6 +156,11 @@ function mountDrop(): void {
     const box = zone.getBoundingClientRect();
     return event.clientX < box.left + box.width / 2 ? 0 : 1;
   };
+  /** As far as a browser tells before the drop. */
+  const holdsMany = (event: DragEvent) => {
+    const types = [...(event.dataTransfer?.items ?? [])].map(({ type }) => type);
+    return types.length > 2 || types.some((type) => /^video\/|^image\/gif/.test(type));
+  };
   const mark = (side: number | null) =>
     sides.forEach((element, i) => element.classList.toggle("over", i === side));
 
@@ -180,7 +168,10 @@ function mountDrop(): void {
     if (!carriesFiles(event)) return;
     event.preventDefault();
     zone.hidden = false;
-    mark(sideAt(event));
+    const many = holdsMany(event);
+    zone.classList.toggle("many", many);
+    sides[0]!.textContent = many ? "Choose two frames of these" : "First frame";
+    mark(many ? 0 : sideAt(event));
   });
   document.addEventListener("dragleave", (event) => {
     if (event.relatedTarget === null) zone.hidden = true;

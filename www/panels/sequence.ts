@@ -43,13 +43,14 @@ export function mountSequence(): void {
   );
   store.watch(({ opening }) => [opening], choosePresent);
   store.watch(
-    ({ title, lesson, width, height }) => [title, lesson, width, height],
-    ({ title, lesson, width, height }) => {
+    ({ title, lesson, width, height, source }) => [title, lesson, width, height, source],
+    ({ title, lesson, width, height, source }) => {
       byId("sequence-title").textContent = title;
+      const note = source?.kind === "files" && source.note ? `${source.note} ` : "";
       byId("lesson").textContent =
         lesson ||
         (width > 0
-          ? `${width} × ${height} pixels. Set the camera's focal length if you know it, or have it found.`
+          ? `${note}${width} × ${height} pixels. Set the camera's focal length if you know it, or have it found.`
           : "");
     },
   );

@@ -2,6 +2,7 @@
 
 import { byId, icon, make } from "../dom";
 import { number, seconds } from "../format";
+import { nextFrame, nextPair } from "../intake/reel";
 import { PACES, paceOf } from "../pace";
 import { giveUp, startOver } from "../memory/history";
 import { keepPace, pause, run, step } from "../session";
@@ -20,6 +21,8 @@ export function mountTransport(): void {
   for (const button of parts()) {
     button.addEventListener("click", () => void step(button.dataset["part"] as Part));
   }
+
+  mountNextPair();
 
   const pace = byId<HTMLSelectElement>("pace");
   pace.append(...PACES.map(({ value, label }) => make("option", { value }, label)));
@@ -67,6 +70,24 @@ export function mountTransport(): void {
       const expected =
         state.started && !state.busy && !state.running ? state.report?.expected : null;
       byId("expected").textContent = expected ? expectation(expected) : "";
+    },
+  );
+}
+
+/** After a solve, the next pair of the film that this one is from. */
+function mountNextPair(): void {
+  const button = byId<HTMLButtonElement>("next-pair");
+  button.addEventListener("click", () => void nextPair());
+  store.watch(
+    ({ reel, source, running, busy, started }) => [reel, source, running, busy, started],
+    (state) => {
+      const { reel, running, busy, started } = state;
+      const next = nextFrame(state);
+      button.hidden = next === null || !started;
+      button.disabled = running || busy !== null;
+      if (next === null || !reel?.pair) return;
+      const [from, to] = [reel.pair.at[1], next].map((index) => reel.film.label(index));
+      button.title = `Goes on from what was found: ${from} and ${to}`;
     },
   );
 }

@@ -12,6 +12,7 @@ import {
 import type { Catalogues } from "./protocol";
 
 export {
+  displacement,
   findCurves,
   findFocal,
   Frame,

@@ -6,6 +6,7 @@
  */
 
 import {
+  displacement,
   findCurves,
   findFocal,
   Frame,
@@ -19,8 +20,11 @@ import {
 import type {
   Camera,
   Contour,
+  Displacement,
   FocalLength,
   Found,
+  Followed,
+  FrameFile,
   MeshData,
   Opened,
   Part,
@@ -38,6 +42,8 @@ import { squeeze, unsqueeze } from "./keeping";
 
 /** Longest side of a frame sent to the page; more than a screen shows only costs memory. */
 const LONGEST_SIDE = 2048;
+/** Shortest side of frames between which motion is measured. */
+const MEASURABLE = 16;
 
 /** Frames with more pixels are not copied while a solver is at work on them. */
 const MOST_PIXELS = 4e6;
@@ -56,6 +62,8 @@ export class Engine {
   private setup: Setup | null = null;
   /** What was put away and is shown, until the solver gets to work. */
   private restored: { kept: Kept; found: Found } | null = null;
+  /** Curves that were carried on to the next pair, where the solver still has those of the pair before to go back to. */
+  private carried: Shape[] | null = null;
   /** Whether there is a result: the solver has been at work since it was made or reset, or one was restored. */
   started = false;
   /** Another number wherever what is found may be another. */
@@ -87,6 +95,7 @@ export class Engine {
         names: source.kind === "files" ? [source.first.name, source.second.name] : ["", ""],
         setup,
         restored: this.restored !== null,
+        focalFrom: scene ? "f is the sequence's own." : "f is a guess: the frame's width.",
         truth: scene !== null,
       };
     } catch (error) {
@@ -126,9 +135,35 @@ export class Engine {
       this.setup = setup;
       // A result is one of the curves that it was found from.
       if (over) this.reset();
+      this.carried = null;
     }
     if (options || shapes) this.revision += 1;
     return options || shapes;
+  }
+
+  /** The following frame of the film: the second becomes the first. */
+  async follow(file: FrameFile): Promise<Followed> {
+    const { owned, solver, setup } = this.present();
+    const next = Frame.decode(file.bytes, file.name);
+    try {
+      const frames: [ImageBitmap, ImageBitmap] = [await bitmap(owned.second), await bitmap(next)];
+      // A result that was put away has no solver behind it: its curves go on where they are.
+      const kept = this.restored && carriedOn(setup.shapes, this.contours());
+      solver.next(next);
+      this.forget();
+      this.revision += 1;
+      const shapes = kept ?? carriedOn(setup.shapes, this.contours());
+      if (kept) solver.setCurves(JSON.stringify(kept));
+      owned.first.free();
+      owned.baseline?.free();
+      this.owned = { first: owned.second, second: next, scene: null, baseline: null };
+      this.setup = { ...setup, shapes };
+      this.carried = shapes;
+      return { frames, shapes };
+    } catch (error) {
+      next.free();
+      throw error;
+    }
   }
 
   /** Curves to start from, where something moves by itself. */
@@ -165,7 +200,9 @@ export class Engine {
   }
 
   reset(): void {
-    this.present().solver.reset();
+    const { solver } = this.present();
+    if (this.carried) solver.setCurves(JSON.stringify(this.carried));
+    solver.reset();
     this.begin();
   }
 
@@ -212,6 +249,7 @@ export class Engine {
   /** Nothing has been found yet. */
   private begin(): void {
     this.forget();
+    this.carried = null;
     this.started = false;
     this.revision += 1;
   }
@@ -233,13 +271,24 @@ export class Engine {
     return JSON.parse(this.present().solver.contours()) as Contour[];
   }
 
-  async picture({ of, kind, params }: PictureRequest, longest: number): Promise<ImageBitmap> {
-    const picture = this.drawer(of).view(kind, JSON.stringify(params));
+  async picture(request: PictureRequest, longest: number): Promise<ImageBitmap> {
+    const picture = this.drawn(request);
     try {
       return await bitmap(picture, longest);
     } finally {
       picture.free();
     }
+  }
+
+  private drawn({ of, kind, params, compared }: PictureRequest): Picture {
+    const { owned, solver } = this.present();
+    const { scene } = owned;
+    const given = JSON.stringify(params);
+    const colours = compared && scene ? scene.sameColours(given) : given;
+    if (of === "found" && compared && scene) {
+      return (this.restored?.kept ?? solver).viewAligned(kind, colours, scene);
+    }
+    return this.drawer(of).view(kind, colours);
   }
 
   private drawer(of: Whose): { view(kind: string, params: string): Picture } {
@@ -297,16 +346,57 @@ export class Engine {
 }
 
 /** Decodes a file only to look at it. */
-export async function preview(file: {
-  name: string;
-  bytes: Uint8Array<ArrayBuffer>;
-}): Promise<{ width: number; height: number; picture: ImageBitmap }> {
+export async function preview(
+  file: FrameFile,
+  longest: number,
+): Promise<{ width: number; height: number; picture: ImageBitmap }> {
   const frame = Frame.decode(file.bytes, file.name);
   try {
-    return { width: frame.width, height: frame.height, picture: await bitmap(frame, 256) };
+    return { width: frame.width, height: frame.height, picture: await bitmap(frame, longest) };
   } finally {
     frame.free();
   }
+}
+
+/** How far things move between two pictures; `null` when they differ in size or are too small to tell. */
+export function measure(first: ImageBitmap, second: ImageBitmap): Displacement | null {
+  const { width, height } = first;
+  if (width !== second.width || height !== second.height) return null;
+  if (Math.min(width, height) < MEASURABLE) return null;
+  const canvas = new OffscreenCanvas(width, height);
+  const context = canvas.getContext("2d", { willReadFrequently: true })!;
+  const frame = (picture: ImageBitmap) => {
+    context.drawImage(picture, 0, 0);
+    const { data } = context.getImageData(0, 0, width, height);
+    return Frame.fromRgba(width, height, new Uint8Array(data.buffer));
+  };
+  const frames = [frame(first), frame(second)] as const;
+  try {
+    return JSON.parse(displacement(...frames)) as Displacement;
+  } finally {
+    frames.forEach((one) => one.free());
+  }
+}
+
+/** Each curve where its region is now, by the longest outline of that; where a region is lost, the curve stays. */
+function carriedOn(shapes: Shape[], contours: Contour[]): Shape[] {
+  return shapes.map((shape, k) => {
+    const own = contours.filter(({ label, closed }) => label === k + 1 && closed);
+    const longest = own.toSorted((a, b) => b.points.length - a.points.length)[0];
+    if (!longest || longest.points.length < 6) return shape;
+    const points: [number, number][] = [];
+    for (let i = 0; i + 1 < longest.points.length; i += 2) {
+      points.push([longest.points[i]!, longest.points[i + 1]!]);
+    }
+    return { kind: "polygon", points: thinned(points) };
+  });
+}
+
+/** No more points than a person would care to move. */
+function thinned(points: [number, number][]): [number, number][] {
+  const every = Math.ceil(points.length / 64);
+  const thin = points.filter((_, i) => i % every === 0);
+  return thin.length < 3 ? points : thin;
 }
 
 function take(source: Source): Owned {

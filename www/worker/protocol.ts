@@ -9,6 +9,7 @@ import type {
   Camera,
   Choice,
   Contour,
+  Displacement,
   Limits,
   OptionEntry,
   Options,
@@ -24,6 +25,7 @@ export type {
   Camera,
   Choice,
   Contour,
+  Displacement,
   Expected,
   OptionEntry,
   PresetEntry,
@@ -71,7 +73,13 @@ export interface FrameFile {
 /** Where two frames come from; enough to open them again after the worker was restarted. */
 export type Source =
   | { kind: "scene"; name: string; width: number; height: number }
-  | { kind: "files"; first: FrameFile; second: FrameFile };
+  | {
+      kind: "files";
+      first: FrameFile;
+      second: FrameFile;
+      /** A sentence that says what they are, where that is not plain from their names. */
+      note?: string;
+    };
 
 /** A pair that has been opened and found good. */
 export interface Opened {
@@ -85,17 +93,28 @@ export interface Opened {
   setup: Setup;
   /** Whether a result that came with it is shown. */
   restored: boolean;
+  /** A sentence: where the setup's focal length comes from. */
+  focalFrom: string;
   /** Whether labels, depth and motion are known, so that scores can be given. */
   truth: boolean;
 }
 
 export type Part = "all" | "motion" | "depth" | "curves";
 
+/** The following pair of a film, as it was taken up. */
+export interface Followed {
+  frames: [ImageBitmap, ImageBitmap];
+  /** The curves where they were carried to: those that the solver goes back to. */
+  shapes: Shape[];
+}
+
 /** Whose picture: the solver's, the truth's, or the baseline's. */
 export type Whose = "found" | "truth" | "horn-schunck";
 
 export interface PictureRequest {
   of: Whose;
+  /** In the truth's colours, and each region's depth in the truth's unit. */
+  compared: boolean;
   kind: string;
   params: Record<string, unknown>;
 }
@@ -175,14 +194,24 @@ export interface Service {
     progress: (progress: Progress) => Promise<void>,
     failure: (failure: Failure) => void,
   ): Promise<void>;
-  /** Decodes one file; throws a sentence when it is no image. */
-  preview(file: FrameFile): Promise<{ width: number; height: number; picture: ImageBitmap }>;
+  /** Decodes one file; throws a sentence when it is no image. The picture's longer side is `longest` at most. */
+  preview(
+    file: FrameFile,
+    longest: number,
+  ): Promise<{ width: number; height: number; picture: ImageBitmap }>;
+  /** How far things move between two frames, shown small; `null` when they differ in size or are too small. */
+  displacement(first: ImageBitmap, second: ImageBitmap): Promise<Displacement | null>;
   /** Opens a pair; on any error the one open before stays. `keep` overrides the source's own setup, as far as it goes; `found` is shown with it. */
   open(source: Source, keep: Partial<Setup>, found: Found | null): Promise<Opened>;
   /** What has been found, to be put away; `null` when nothing has. */
   keep(): Promise<Found | null>;
   /** Shows what was put away. The solver is set up likewise, and starts afresh when it is told to work. */
   restore(setup: Setup, found: Found, wanted: Wanted): Promise<void>;
+  /**
+   * Takes the following frame of a film: the second becomes the first, and what was found is the first guess. On any
+   * error all stays.
+   */
+  follow(next: FrameFile): Promise<Followed>;
   /** Curves to start from; none where one motion explains both frames. The solver stays as it is. */
   find(camera: Camera): Promise<Shape[]>;
   /** The focal length, where the frames tell that it is not `camera`'s. The solver stays as it is. */

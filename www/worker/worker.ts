@@ -8,7 +8,7 @@
 import * as Comlink from "comlink";
 
 import { catalogues, load, panicMessage } from "./core";
-import { Engine, preview } from "./engine";
+import { Engine, measure, preview } from "./engine";
 import type { Failure, PictureRequest, Progress, Service, Setup, Wanted } from "./protocol";
 
 /** A pass that takes longer keeps those waiting who look at something else meanwhile, milliseconds. */
@@ -210,11 +210,13 @@ const service: Service = {
     fail = failure;
   },
 
-  preview: (file) =>
+  preview: (file, longest) =>
     guard(async () => {
-      const seen = await preview(file);
+      const seen = await preview(file, longest);
       return Comlink.transfer(seen, [seen.picture]);
     }),
+
+  displacement: (first, second) => guard(() => measure(first, second)),
 
   open: (source, keep, found) =>
     guard(async () => {
@@ -231,6 +233,14 @@ const service: Service = {
       await engine.restore(setup, found);
       look = looked(wanted);
       publish();
+    }),
+
+  follow: (next) =>
+    guard(async () => {
+      stop();
+      const followed = await engine.follow(next);
+      look.mesh.iterations = -1;
+      return Comlink.transfer(followed, followed.frames);
     }),
 
   find: (camera) => guard(() => engine.find(camera)),

@@ -1,0 +1,35 @@
+/** One still picture as the core takes it: as it is, or as a PNG where only the browser reads it. */
+
+import type { FrameFile } from "../worker/protocol";
+import { pngOf } from "./film";
+import { formatOf } from "./formats";
+
+/** Reads a file; rejects with a sentence. */
+export async function bytesOf(file: File, name = file.name): Promise<Uint8Array<ArrayBuffer>> {
+  const gone = () => {
+    throw new Error(`${name} cannot be read; it may be a folder, or have been moved or deleted`);
+  };
+  return new Uint8Array(await file.arrayBuffer().catch(gone));
+}
+
+/** A file for the core; rejects with a sentence that names the format where nobody here reads it. */
+export async function admit(file: File, unnamed: string): Promise<FrameFile> {
+  const name = file.name || unnamed;
+  const bytes = await bytesOf(file, name);
+  const format = formatOf(bytes);
+  const own = format === null || format.reader === "core" || ["PNG", "WebP"].includes(format.name);
+  if (own) return { name, bytes };
+  const blob = new Blob([bytes], { type: format.type });
+  const picture =
+    format.reader === "foreign" ? null : await createImageBitmap(blob).catch(() => null);
+  if (!picture) {
+    const who =
+      format.reader === "foreign" ? "which is not opened here" : "which this browser does not open";
+    throw new Error(
+      `${name} is ${article(format.name)} ${format.name} file, ${who}; save it as JPEG, PNG or TIFF first`,
+    );
+  }
+  return pngOf(name, picture);
+}
+
+const article = (name: string) => (/^[AEIO]/.test(name) ? "an" : "a");

@@ -1,0 +1,25 @@
+/** Three or more photos, in the order of their names, as if they were a film. */
+
+import { ask } from "../session";
+import { admit } from "./admit";
+import type { Film } from "./film";
+
+/** A film of files; pictures that are no good say so when they are looked at. */
+export function photos(files: File[]): Film {
+  const unnamed = (index: number) => `picture ${index + 1}`;
+  const label = (index: number) => files[index]!.name || unnamed(index);
+  const file = (index: number) => admit(files[index]!, unnamed(index));
+  return {
+    name: `${files.length} pictures`,
+    count: files.length,
+    label,
+    file,
+    async picture(index, longest) {
+      const read = await file(index);
+      const seen = await ask(null, (service) => service.preview(read, longest));
+      if (!seen) throw new Error(`${label(index)} cannot be shown`);
+      return seen.picture;
+    },
+    close() {},
+  };
+}

@@ -1,0 +1,115 @@
+/**
+ * What becomes of files that were chosen, dropped or pasted: a clip, an animation or three and more pictures go to the
+ * filmstrip, a file with two views is a pair, and one or two pictures go to the places of the two frames.
+ */
+
+import { ask, overtaken } from "../session";
+import { store, type Slot } from "../store";
+import { admit, bytesOf } from "./admit";
+import { openAnimation } from "./animation";
+import type { Film } from "./film";
+import { formatOf, headOf } from "./formats";
+import { photos } from "./photos";
+import { chooseFrom, keep } from "./reel";
+import { openBoth, put, slotOf, takePair } from "./slots";
+import { twoViews } from "./two-views";
+
+/** What was on the stage, or about to be, when files were chosen. */
+type Before = Parameters<typeof overtaken>[0];
+
+let taking: Promise<void> = Promise.resolve();
+
+/** One picture goes to `side` or the first empty place, two to both by name. One lot after another. */
+export function takeAll(files: File[], side: 0 | 1 | null): Promise<void> {
+  const { source, opening } = store.state;
+  taking = taking.then(() => takeLot(files, side, { source, opening }));
+  return taking;
+}
+
+async function takeLot(files: File[], side: 0 | 1 | null, then: Before): Promise<void> {
+  const sorted = files.toSorted((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }));
+  if (sorted.length === 0) return;
+  const film = await filmOf(sorted);
+  // What it is could not be told, and the message bar says so.
+  if (film === undefined) return;
+  if (film) {
+    keep(film);
+    if (!overtaken(then)) await chooseFrom(film);
+  } else {
+    await takeStills(sorted, side, then);
+  }
+}
+
+/** The film that the files make; `null` when they are one or two still pictures. */
+async function filmOf(files: File[]): Promise<Film | null | undefined> {
+  const phrase =
+    files.length === 1 ? `Reading ${files[0]!.name || "a picture"}` : "Reading the files";
+  const answer = await ask(phrase, async () => {
+    const films: Film[] = [];
+    for (const file of files) {
+      const film = await momentsOf(file);
+      if (film) films.push(film);
+    }
+    if (files.length === 1 || films.length === 0) return [films[0] ?? null];
+    const { name } = films[0]!;
+    films.forEach((film) => film.close());
+    throw new Error(`${name} holds many frames by itself; open it alone, without other files`);
+  });
+  if (!answer) return undefined;
+  if (answer[0] || files.length < 3) return answer[0]!;
+  return photos(files);
+}
+
+/** A file as a film, where it holds several moments. */
+async function momentsOf(file: File): Promise<Film | null> {
+  const head = await headOf(file).catch(() => bytesOf(file));
+  const format = formatOf(head);
+  switch (format?.reader) {
+    case "animation":
+      return openAnimation(file, format);
+    case "video": {
+      const { openVideo } = await import("./video");
+      return openVideo(file, format.name);
+    }
+    default:
+      return null;
+  }
+}
+
+async function takeStills(files: File[], side: 0 | 1 | null, then: Before): Promise<void> {
+  const [only] = files;
+  if (files.length === 1 && only && (await takeViews(only, then))) return;
+  const { slots } = store.state;
+  const full = slots[0] !== null && slots[1] !== null;
+  // With both places taken and none named, another pair begins.
+  if (files.length === 1 && side === null && full) store.update({ slots: [null, null] });
+  const at = files.length === 2 ? 0 : (side ?? (store.state.slots[0] ? 1 : 0));
+  // All are read before any takes its place: beside one that is no image, its partner would be
+  // paired with an older frame.
+  const taken: Slot[] = [];
+  for (const [i, file] of files.entries()) {
+    const unnamed = at + i === 0 ? "first frame" : "second frame";
+    const slot = await slotOf(() => admit(file, unnamed), `Reading ${file.name || unnamed}`);
+    if (!slot) return;
+    taken.push(slot);
+  }
+  put(taken, at);
+  // A sequence chosen while files were read is what is wanted.
+  if (!overtaken(then)) await openBoth();
+}
+
+/** Opens a file with two views as a pair; whether it was one. */
+async function takeViews(file: File, then: Before): Promise<boolean> {
+  const head = await headOf(file).catch(() => null);
+  if (!head || formatOf(head)?.name !== "JPEG") return false;
+  const views = twoViews(await bytesOf(file));
+  if (!views || overtaken(then)) return false;
+  const named = (which: string, bytes: Uint8Array<ArrayBuffer>) => ({
+    name: `${file.name}, ${which} view`,
+    // Of its own, since the other view lies in the same memory.
+    bytes: bytes.slice(),
+  });
+  const note = `Two views from one file, ${file.name}: opened as a pair. Whatever stood still has one motion, and no curve is needed.`;
+  await takePair([named("first", views[0]), named("second", views[1])], note);
+  return true;
+}
