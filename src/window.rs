@@ -5,10 +5,10 @@
 /// ```
 /// use relievo::Window;
 ///
-/// // One pixel at (4, 3) of an 8×6 frame, and a pixel around it.
-/// let window = Window::around(8, 6, 1, |i| i == 3 * 8 + 4).unwrap();
-/// assert_eq!((window.left, window.top), (3, 2));
-/// assert_eq!((window.width, window.height), (3, 3));
+/// // Two pixels of row 3 of an 8×6 frame.
+/// let window = Window::around(8, 6, |i| i == 3 * 8 + 4 || i == 3 * 8 + 6).unwrap();
+/// assert_eq!((window.left, window.top), (4, 3));
+/// assert_eq!((window.width, window.height), (3, 1));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {

@@ -192,9 +192,9 @@ fn pages(bytes: &[u8], name: &str) -> Result<Film, Error> {
     let mut film = Film::new(Kind::Pages);
     loop {
         let first = film.moments.is_empty();
-        let page = pages.size().and_then(|(width, height)| {
+        let page = pages.size().map(|(width, height)| {
             let size = check_size(name, width as usize, height as usize);
-            Ok(size.map(|()| pages.read()))
+            size.map(|()| pages.read())
         });
         match page.map_err(refuse).and_then(|page| page?.map_err(refuse)) {
             Ok(raw) => {

@@ -107,8 +107,14 @@ impl Layered {
         self.improve_region(k, prior, STEPS, true);
         let smooth = self.surface_cost(k);
         let apart = self.share_apart(k, &pixels, &refined.rho);
+        // A surface that is no better than the one before shows that the motion was not what was wrong.
+        let limit = if smooth > GAIN[0] * before {
+            1.0
+        } else {
+            GAIN[1]
+        };
         let region = &mut self.regions[k];
-        if apart > 0.0 && cost < GAIN[1] * smooth || apart > APART {
+        if apart > 0.0 && cost < limit * smooth || apart > APART {
             region.state = pixels;
             region.dense = Some(refined.rho);
         } else if smooth > GAIN[0] * before {

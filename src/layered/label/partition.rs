@@ -77,7 +77,7 @@ fn neighbour(
     height: usize,
 ) -> Option<usize> {
     let (x, y) = (x.wrapping_add_signed(dx), y.wrapping_add_signed(dy));
-    (x < width && y < height).then_some(y * width + x)
+    (x < width && y < height).then(|| y * width + x)
 }
 
 /// How far swaps reach.
