@@ -31,6 +31,8 @@ const FEWEST: usize = 2000;
 const GAIN: [f64; 2] = [0.87, 0.8];
 /// Share of pixels from which on a surface that is more than a pixel off has lost its way.
 const APART: f64 = 0.25;
+/// Share of pixels that are so far off where depth has steps.
+const STEPPED: f64 = 0.02;
 /// Gauss–Newton steps of the surface under the motion found.
 const STEPS: usize = 4;
 
@@ -107,17 +109,20 @@ impl Layered {
         self.improve_region(k, prior, STEPS, true);
         let smooth = self.surface_cost(k);
         let apart = self.share_apart(k, &pixels, &refined.rho);
-        // A surface that is no better than the one before shows that the motion was not what was wrong.
-        let limit = if smooth > GAIN[0] * before {
-            1.0
+        // If the surface is no better than the one before, the motion was not what was wrong: then depth has to show steps,
+        // where outlines do not show them.
+        let usual = if self.regions.len() > 1 { STEPPED } else { 0.0 };
+        let better = smooth <= GAIN[0] * before;
+        let stepped = if better {
+            apart > 0.0 && cost < GAIN[1] * smooth
         } else {
-            GAIN[1]
+            apart > usual
         };
         let region = &mut self.regions[k];
-        if apart > 0.0 && cost < limit * smooth || apart > APART {
+        if stepped || apart > APART {
             region.state = pixels;
             region.dense = Some(refined.rho);
-        } else if smooth > GAIN[0] * before {
+        } else if !better {
             (region.state, region.model, region.ambiguous) = own;
         }
         region.fresh = false;
