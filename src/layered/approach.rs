@@ -23,7 +23,12 @@ impl Approach for Layered {
                     self.measure_sigma(options);
                 }
                 self.estimate(options);
-                if done == 0 && !self.warm && self.level == self.first.saturating_sub(1) {
+                let selects = if self.warm {
+                    self.first
+                } else {
+                    self.first.saturating_sub(1)
+                };
+                if done == 0 && self.level == selects {
                     self.select_models(options);
                 }
             }

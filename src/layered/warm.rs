@@ -60,7 +60,10 @@ impl Layered {
         };
         for region in &mut self.regions {
             region.dense = None;
-            region.alternatives.clear();
+            // Who comes to a halt and goes back moves against what was found.
+            let mut back = region.state.clone();
+            (back.translation, back.rotation) = (-back.translation, back.rotation.transpose());
+            region.alternatives = vec![(region.model, back)];
         }
         self.fit_memory();
         self.fit_surfaces();
