@@ -67,7 +67,7 @@ export async function clip(page: Page, frames: Grey[], type = "video/webm"): Pro
       const stopped = new Promise((done) => recorder.addEventListener("stop", done));
       const started = new Promise((begun) => recorder.addEventListener("start", begun));
       recorder.start();
-      await started;
+      await Promise.race([started, new Promise((next) => setTimeout(next, 1000))]);
       for (const frame of frames) {
         const bytes = Uint8Array.from(atob(frame), (letter) => letter.charCodeAt(0));
         const picture = context.createImageData(width, height);

@@ -198,11 +198,11 @@ test("what is said of the energy is what its line shows", async ({ opened: page 
   await page.getByRole("button", { name: "Step" }).click();
   const text = page.locator("#energy-text");
   await expect(text).toHaveText(/^[\d.\s]+ after one pass\. /, { timeout: PATIENCE });
-  const [energy] = (await text.textContent())!.split(" after");
   await page.getByRole("button", { name: "Curve 1", exact: true }).click();
   await page.keyboard.press("Shift+ArrowRight");
   await until(page, ({ report }) => report!.energy.total !== report!.history[0]);
-  await expect(text).toHaveText(new RegExp(`^${energy} after one pass\\. `));
+  // Curves elsewhere: the number of the pass before is that of another sum.
+  await expect(text).toHaveText(/^From the next pass on energy is another sum/);
 });
 
 test("reset goes back to the drawn curves, and running again starts over", async ({
