@@ -8,7 +8,8 @@ export const POLICY = [
   "img-src 'self' blob:",
   "media-src 'self' blob: mediastream:",
   "connect-src 'self' blob:",
-  "worker-src 'self'",
+  // Clips with transparency are merged by a worker that their reader makes of a blob of its own.
+  "worker-src 'self' blob:",
   "manifest-src 'self'",
   "form-action 'none'",
   "base-uri 'none'",
