@@ -25,8 +25,6 @@ export default defineConfig({
   forbidOnly: !!process.env["CI"],
   workers: 1,
   timeout: 60_000,
-  // Some tests ask that the page stays free, which another job on the machine may prevent.
-  retries: 1,
   reporter: [["list"]],
   use: {
     ...browsers[process.env["RELIEVO_BROWSER"] === "firefox" ? "firefox" : "chromium"],

@@ -39,7 +39,7 @@ export function onMesh(listener: (mesh: MeshData) => void): void {
   meshListener = listener;
 }
 
-const client = new Client({
+const client = new Client("solver", {
   progress: show,
   failure: (failure) => {
     // That was the answer.

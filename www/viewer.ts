@@ -17,7 +17,7 @@ export class Viewer {
 
   /** `show` gets pictures and mesh; the rest of a progress is the solver's to tell. */
   constructor(show: (progress: Progress) => void) {
-    this.client = new Client({
+    this.client = new Client("viewer", {
       progress: async (progress) => {
         if (progress.id === this.asked && this.latest) show(progress);
         else progress.pictures.forEach((picture) => picture?.close());

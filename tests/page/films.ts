@@ -253,6 +253,30 @@ export async function mpo(page: Page, views: [Grey, Grey], mark = ""): Promise<B
   return Buffer.concat([withSegment(first!, 0xe2, index(length, length - 10)), marked]);
 }
 
+/** A photo whose EXIF data say a focal length on 35 mm film. */
+export async function photo(page: Page, view: Grey, millimetres: number): Promise<Buffer> {
+  const jpeg = await encoded(page, view, "image/jpeg");
+  const exif = Buffer.from(
+    // A directory that leads to the EXIF directory, which has the one entry.
+    "457869660000" +
+      "4d4d002a00000008" +
+      "0001" +
+      "8769000400000001" +
+      "0000001a" +
+      "00000000" +
+      "0001" +
+      "a405000300000001" +
+      millimetres.toString(16).padStart(4, "0") +
+      "0000" +
+      "00000000",
+    "hex",
+  );
+  return withSegment(jpeg, 0xe1, exif);
+}
+
+/** A picture as PNG. */
+export const still = (page: Page, view: Grey) => encoded(page, view, "image/png");
+
 function withSegment(jpeg: Buffer, marker: number, data: Buffer): Buffer {
   const head = Buffer.from([0xff, marker, (data.length + 2) >> 8, (data.length + 2) & 255]);
   return Buffer.concat([jpeg.subarray(0, 2), head, data, jpeg.subarray(2)]);

@@ -4,7 +4,7 @@ import AxeBuilder from "@axe-core/playwright";
 import type { Page } from "@playwright/test";
 
 import type { State } from "../../www/store";
-import { apng, clip, gif, matroska, moments, mpo, numberOn, webp } from "./films";
+import { apng, clip, gif, matroska, moments, mpo, numberOn, photo, still, webp } from "./films";
 import { expect, PATIENCE, png, read, ready, solve, test, until } from "./helpers";
 
 const any = (page: Page) => page.locator("#film-file");
@@ -231,6 +231,27 @@ test("two views in one file are a pair, and said to be one; a gain map is no vie
   const photo = await mpo(page, [one!, two!], "http://ns.adobe.com/xap/1.0/\0hdrgm:Version");
   await any(page).setInputFiles(file("phone.jpg", "image/jpeg", photo));
   await expect(page.locator("#slots-note")).toContainText("second frame is still missing");
+});
+
+test("photos bring the focal length that they were taken with", async ({ opened: page }) => {
+  const photos = await Promise.all(moments(2).map((view) => photo(page, view, 72)));
+  await any(page).setInputFiles(photos.map((data, i) => file(`p${i}.jpg`, "image/jpeg", data)));
+  await until(page, (state) => state.source?.kind === "files" && state.busy === null);
+  // 35 mm film is 36 mm wide, the frame 160 pixels.
+  expect(await read(page, (state) => state.camera.focal)).toBe(320);
+  await expect(page.getByText("f is from EXIF: 72 mm on 35 mm film.")).toBeVisible();
+});
+
+test("faint frames are shown with their levels stretched", async ({ opened: page }) => {
+  const faint = moments(2).map(({ data, ...size }) => ({
+    ...size,
+    data: data.map((grey) => 3 + grey / 16),
+  }));
+  const files = await Promise.all(faint.map((view) => still(page, view)));
+  await any(page).setInputFiles(files.map((data, i) => file(`f${i}.png`, "image/png", data)));
+  await until(page, (state) => state.source?.kind === "files" && state.busy === null);
+  // Black and white squares along the top say the frame's number.
+  expect(await openNumbers(page)).toEqual([0, 1]);
 });
 
 test("three pictures dropped at once are a filmstrip in the order of their names", async ({

@@ -218,7 +218,7 @@ function keepWorkers(): void {
   window.Worker = class extends Real {
     constructor(address: string | URL, options?: WorkerOptions) {
       super(address, options);
-      made.push(this);
+      if (options?.name === "solver") made.push(this);
     }
   };
 }

@@ -30,7 +30,11 @@ export class Client {
   private ended: Promise<never> = new Promise(() => {});
   private turn: Promise<unknown> = Promise.resolve();
 
-  constructor(private readonly listener: Listener) {}
+  /** `name` is what the browser's tools call the worker. */
+  constructor(
+    private readonly name: "solver" | "viewer",
+    private readonly listener: Listener,
+  ) {}
 
   /** One call; rejects with a sentence, or with `Ended` when the worker was replaced meanwhile. */
   async call<T>(use: (service: Remote) => Promise<T>): Promise<T> {
@@ -67,7 +71,10 @@ export class Client {
   }
 
   private start(): void {
-    const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
+    const worker = new Worker(new URL("./worker.ts", import.meta.url), {
+      type: "module",
+      name: this.name,
+    });
     this.ended = new Promise((_, reject) => {
       this.abandon = reject;
     });

@@ -22,6 +22,7 @@ export {
   Scene,
   Solver,
   type Baseline,
+  type LensEntry,
   type Picture,
 } from "../../pkg/relievo.js";
 

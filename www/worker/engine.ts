@@ -6,7 +6,6 @@
  */
 
 import {
-  displacement,
   findCurves,
   findFocal,
   Frame,
@@ -15,12 +14,12 @@ import {
   Scene,
   Solver,
   type Baseline,
+  type LensEntry,
   type Picture,
 } from "./core";
 import type {
   Camera,
   Contour,
-  Displacement,
   FocalLength,
   Found,
   Followed,
@@ -38,14 +37,11 @@ import type {
   Status,
   Whose,
 } from "./protocol";
+import { carriedOn } from "./carried";
 import { squeeze, unsqueeze } from "./keeping";
+import { bitmap } from "./pictures";
 
-/** Longest side of a frame sent to the page; more than a screen shows only costs memory. */
-const LONGEST_SIDE = 2048;
-/** Shortest side of frames between which motion is measured. */
-const MEASURABLE = 16;
-
-/** Frames with more pixels are not copied while a solver is at work on them. */
+/** Frames with more pixels are drawn smaller, and are not copied while a solver is at work on them. */
 const MOST_PIXELS = 4e6;
 
 interface Owned {
@@ -74,10 +70,7 @@ export class Engine {
     try {
       const setup = { ...ownSetup(owned), ...keep };
       const solver = build(owned, setup);
-      const frames: [ImageBitmap, ImageBitmap] = [
-        await bitmap(owned.first),
-        await bitmap(owned.second),
-      ];
+      const frames = await framesOf(solver);
       this.letGo();
       this.owned = owned;
       this.solver = solver;
@@ -95,7 +88,7 @@ export class Engine {
         names: source.kind === "files" ? [source.first.name, source.second.name] : ["", ""],
         setup,
         restored: this.restored !== null,
-        focalFrom: scene ? "f is the sequence's own." : "f is a guess: the frame's width.",
+        focalFrom: focalFrom(owned),
         truth: scene !== null,
       };
     } catch (error) {
@@ -146,7 +139,6 @@ export class Engine {
     const { owned, solver, setup } = this.present();
     const next = Frame.decode(file.bytes, file.name);
     try {
-      const frames: [ImageBitmap, ImageBitmap] = [await bitmap(owned.second), await bitmap(next)];
       // A result that was put away has no solver behind it: its curves go on where they are.
       const kept = this.restored && carriedOn(setup.shapes, this.contours());
       solver.next(next);
@@ -159,7 +151,7 @@ export class Engine {
       this.owned = { first: owned.second, second: next, scene: null, baseline: null };
       this.setup = { ...setup, shapes };
       this.carried = shapes;
-      return { frames, shapes };
+      return { frames: await framesOf(solver), shapes };
     } catch (error) {
       next.free();
       throw error;
@@ -283,7 +275,7 @@ export class Engine {
   private drawn({ of, kind, params, compared }: PictureRequest): Picture {
     const { owned, solver } = this.present();
     const { scene } = owned;
-    const given = JSON.stringify(params);
+    const given = JSON.stringify({ ...params, pixels: MOST_PIXELS });
     const colours = compared && scene ? scene.sameColours(given) : given;
     if (of === "found" && compared && scene) {
       return (this.restored?.kept ?? solver).viewAligned(kind, colours, scene);
@@ -307,7 +299,8 @@ export class Engine {
 
   mesh(params: Record<string, unknown>): MeshData {
     const { solver } = this.present();
-    const mesh = (this.restored?.kept ?? solver).mesh(JSON.stringify(params));
+    const given = JSON.stringify({ ...params, pixels: MOST_PIXELS });
+    const mesh = (this.restored?.kept ?? solver).mesh(given);
     try {
       const { positions, normals, uvs, indices } = mesh;
       return { positions, normals, uvs, indices };
@@ -345,60 +338,6 @@ export class Engine {
   }
 }
 
-/** Decodes a file only to look at it. */
-export async function preview(
-  file: FrameFile,
-  longest: number,
-): Promise<{ width: number; height: number; picture: ImageBitmap }> {
-  const frame = Frame.decode(file.bytes, file.name);
-  try {
-    return { width: frame.width, height: frame.height, picture: await bitmap(frame, longest) };
-  } finally {
-    frame.free();
-  }
-}
-
-/** How far things move between two pictures; `null` when they differ in size or are too small to tell. */
-export function measure(first: ImageBitmap, second: ImageBitmap): Displacement | null {
-  const { width, height } = first;
-  if (width !== second.width || height !== second.height) return null;
-  if (Math.min(width, height) < MEASURABLE) return null;
-  const canvas = new OffscreenCanvas(width, height);
-  const context = canvas.getContext("2d", { willReadFrequently: true })!;
-  const frame = (picture: ImageBitmap) => {
-    context.drawImage(picture, 0, 0);
-    const { data } = context.getImageData(0, 0, width, height);
-    return Frame.fromRgba(width, height, new Uint8Array(data.buffer));
-  };
-  const frames = [frame(first), frame(second)] as const;
-  try {
-    return JSON.parse(displacement(...frames)) as Displacement;
-  } finally {
-    frames.forEach((one) => one.free());
-  }
-}
-
-/** Each curve where its region is now, by the longest outline of that; where a region is lost, the curve stays. */
-function carriedOn(shapes: Shape[], contours: Contour[]): Shape[] {
-  return shapes.map((shape, k) => {
-    const own = contours.filter(({ label, closed }) => label === k + 1 && closed);
-    const longest = own.toSorted((a, b) => b.points.length - a.points.length)[0];
-    if (!longest || longest.points.length < 6) return shape;
-    const points: [number, number][] = [];
-    for (let i = 0; i + 1 < longest.points.length; i += 2) {
-      points.push([longest.points[i]!, longest.points[i + 1]!]);
-    }
-    return { kind: "polygon", points: thinned(points) };
-  });
-}
-
-/** No more points than a person would care to move. */
-function thinned(points: [number, number][]): [number, number][] {
-  const every = Math.ceil(points.length / 64);
-  const thin = points.filter((_, i) => i % every === 0);
-  return thin.length < 3 ? points : thin;
-}
-
 function take(source: Source): Owned {
   if (source.kind === "scene") {
     const scene = new Scene(source.name, source.width, source.height);
@@ -414,12 +353,38 @@ function take(source: Source): Owned {
   }
 }
 
-/** A sequence brings camera and curves; other frames get f = width and no curve. */
-function ownSetup({ first, scene }: Owned): Setup {
+/** What the photos say of their lens. */
+function lensOf({ first, second }: Owned): LensEntry | null {
+  return JSON.parse(first.lens()) ?? JSON.parse(second.lens());
+}
+
+function focalFrom(owned: Owned): string {
+  if (owned.scene) return "f is the sequence's own.";
+  const lens = lensOf(owned);
+  return lens ? `f is from ${lens.text}.` : "f is a guess: the frame's width.";
+}
+
+/** The frames as they are solved and shown: stretched alike where they use few levels. */
+async function framesOf(solver: Solver): Promise<[ImageBitmap, ImageBitmap]> {
+  const frames = [solver.first(), solver.second()] as const;
+  try {
+    return [await bitmap(frames[0]), await bitmap(frames[1])];
+  } finally {
+    frames.forEach((frame) => frame.free());
+  }
+}
+
+/** A sequence brings camera and curves; other frames get f from their EXIF data or else their width, and no curve. */
+function ownSetup(owned: Owned): Setup {
+  const { first, scene } = owned;
   return {
     camera: scene
       ? JSON.parse(scene.cameraJson)
-      : { focal: first.width, cx: (first.width - 1) / 2, cy: (first.height - 1) / 2 },
+      : {
+          focal: lensOf(owned)?.focal ?? first.width,
+          cx: (first.width - 1) / 2,
+          cy: (first.height - 1) / 2,
+        },
     shapes: scene ? JSON.parse(scene.shapesJson) : [],
     options: {},
   };
@@ -440,15 +405,4 @@ function free({ first, second, scene, baseline }: Owned): void {
   second.free();
   scene?.free();
   baseline?.free();
-}
-
-/** A picture made ready to draw off the main thread, no larger than a screen can use. */
-async function bitmap(picture: Picture | Frame, longest = LONGEST_SIDE): Promise<ImageBitmap> {
-  const { width, height } = picture;
-  const factor = Math.min(1, longest / Math.max(width, height));
-  return createImageBitmap(picture.imageData(), {
-    resizeWidth: Math.max(1, Math.round(width * factor)),
-    resizeHeight: Math.max(1, Math.round(height * factor)),
-    resizeQuality: "medium",
-  });
 }

@@ -8,7 +8,8 @@
 import * as Comlink from "comlink";
 
 import { catalogues, load, panicMessage } from "./core";
-import { Engine, measure, preview } from "./engine";
+import { Engine } from "./engine";
+import { measure, preview } from "./pictures";
 import type { Failure, PictureRequest, Progress, Service, Setup, Wanted } from "./protocol";
 
 /** A pass that takes longer keeps those waiting who look at something else meanwhile, milliseconds. */
