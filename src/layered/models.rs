@@ -223,7 +223,7 @@ fn points_elsewhere(candidate: &Candidate, direction: DVec3) -> bool {
 }
 
 /// Whether, of candidates with the best first, another with another direction of T explains the region as well: its
-/// score is less than `equal` more.
+/// score is less than `equal` more, and its model is no freer, since a turn can always take another direction's part.
 fn ambiguous(candidates: &[Candidate], equal: f64) -> bool {
     let Some((best, rest)) = candidates.split_first() else {
         return false;
@@ -232,6 +232,7 @@ fn ambiguous(candidates: &[Candidate], equal: f64) -> bool {
     best.model.translates()
         && rest
             .iter()
+            .filter(|c| c.model <= best.model)
             .any(|c| points_elsewhere(c, direction) && c.score < best.score + equal)
 }
 

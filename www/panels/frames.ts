@@ -123,7 +123,8 @@ function card(side: 0 | 1, state: Readonly<State>, own: boolean): HTMLElement {
     "div",
     { class: "slot" },
     make("h3", {}, `${title} frame`),
-    picture ? thumbnail(picture) : make("div", { class: "empty" }, "missing"),
+    // The frames of a sequence are on their way; one's own are still to be brought.
+    picture ? thumbnail(picture) : make("div", { class: "empty" }, own ? "missing" : "…"),
     own
       ? make("span", { class: "name", title: slot?.name }, slot ? slot.name + size : "\u00a0")
       : null,
