@@ -95,7 +95,7 @@ pub(crate) fn enter(
     );
 
     let mut band = Banded::default();
-    let mut right = vec![[1.0f32; 6]; nodes];
+    let mut right = vec![[1.0f32; 8]; nodes];
     let (n, b) = (nodes as f64, bandwidth as f64);
     let pixels = (width * height) as f64;
     let flops = n * b * (b + 24.0) / pixels;
@@ -110,7 +110,7 @@ pub(crate) fn enter(
                 band.add(i, i.saturating_sub(bandwidth), 1.0);
             }
             band.factorise();
-            right.fill([1.0; 6]);
+            right.fill([1.0; 8]);
             band.solve(&mut right);
             black_box(&right);
         }),
