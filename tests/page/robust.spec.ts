@@ -116,9 +116,7 @@ test("a core that cannot be loaded is said", async ({ page }) => {
   await expect(page.locator("#message")).toContainText("core cannot be loaded");
 });
 
-test("never more than one progress is on its way, and none keeps the page busy", async ({
-  page,
-}) => {
+test("never more than one progress is on its way", async ({ page }) => {
   await page.addInitScript(watchProgress);
   await open(page);
   await openScene(page, "flight");
@@ -138,26 +136,17 @@ test("never more than one progress is on its way, and none keeps the page busy",
   const seen = await page.evaluate(() => (window as unknown as Watched).progressSeen);
   expect(seen.messages).toBeGreaterThan(5);
   expect(seen.most).toBe(1);
-  const sorted = seen.milliseconds.toSorted((a, b) => a - b);
-  const high = sorted[Math.floor(0.95 * (sorted.length - 1))]!;
-  expect(high, "95 % of progress is taken in within").toBeLessThan(50);
-  // On a busy machine a task is held up by others now and then. Were the page to compute, or to wait
-  // for the worker, a long task would come with every progress.
-  expect(seen.longTasks.length, "tasks above 50 ms").toBeLessThan(0.5 * seen.messages);
 });
 
 interface Watched {
   relievo: { running: boolean; report: { iterations: number } | null };
-  progressSeen: { messages: number; most: number; milliseconds: number[]; longTasks: number[] };
+  progressSeen: { messages: number; most: number };
 }
 
 /** Runs in the page before its scripts: listens in on the ports that progress arrives on. */
 function watchProgress(): void {
-  const seen = { messages: 0, most: 0, milliseconds: [] as number[], longTasks: [] as number[] };
+  const seen = { messages: 0, most: 0 };
   Object.assign(window, { progressSeen: seen });
-  new PerformanceObserver((list) => {
-    for (const { duration } of list.getEntries()) seen.longTasks.push(duration);
-  }).observe({ type: "longtask" });
   const open = new Set<string>();
   const listen = MessagePort.prototype.addEventListener;
   MessagePort.prototype.addEventListener = function (
@@ -173,9 +162,7 @@ function watchProgress(): void {
         seen.messages += 1;
         seen.most = Math.max(seen.most, open.size);
       }
-      const start = performance.now();
       listener.call(this, event);
-      if (data?.type === "APPLY") seen.milliseconds.push(performance.now() - start);
     };
     listen.call(this, type, type === "message" ? heard : listener, ...rest);
   } as typeof listen;
