@@ -4,9 +4,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use relievo::init::find_curves;
 use relievo::options::{Options, Preset};
 use relievo::solver::RegionReport;
+use relievo::solver::find_curves;
 use relievo::{FramePair, Shape};
 
 use crate::Failure;
