@@ -2,9 +2,7 @@
 
 use relievo::MotionModel;
 use relievo::score::{Scores, compare};
-use relievo::{
-    Camera, Frame, FramePair, Interpretation, Options, RigidMotion, Shape, Solver, Status,
-};
+use relievo::{Camera, Frame, FramePair, Interpretation, Options, Shape, Solver, Status};
 
 use crate::Failure;
 
