@@ -1,4 +1,4 @@
-//! Regions that one rigid motion explains as well become one.
+//! Regions that one rigid motion explains as well.
 //!
 //! After the search for motions, on the first scale, two explanations of a pair of regions are compared with what they
 //! cost apart, E/σ²:
@@ -9,9 +9,9 @@
 //! ```
 //!
 //! The motion of a scene is the background's own, or the one that matches of both agree on: a background of little relief
-//! does not tell its T alone. Pairs that lose no more than [`ALIKE`] by it are merged: first bodies, the pair that loses
-//! least first, then what is left with the background. The region of the higher number stays empty, so that curves keep
-//! their numbers.
+//! does not tell its T alone. Where curves are looked for, pairs that lose no more than [`ALIKE`] by it are merged: first
+//! bodies, the pair that loses least first, then what is left with the background. Curves that are drawn stay, and it is
+//! noted: in noise, or where a body happens to move as the background would at another depth, whoever drew it knows better.
 
 use glam::DVec3;
 
@@ -40,12 +40,9 @@ const NEARER: f64 = 4.5;
 const TOUCH: usize = 6;
 
 impl Layered {
-    /// Merges what is one.
+    /// Merges what is one, where nobody has said that it is two.
     pub(super) fn merge_regions(&mut self, options: &Options) {
         let count = self.regions.len();
-        if count < 2 {
-            return;
-        }
         let mut lost = vec![None; count * count];
         while let Some((into, from)) = self.most_alike(&mut lost, options) {
             self.merge(into, from, options);
@@ -55,14 +52,34 @@ impl Layered {
                 }
             }
         }
-        let frames = [&self.pair.first().grey, &self.pair.second().grey];
-        let all = matches(frames[0], frames[1]);
-        let seen: Vec<usize> = (1..count)
-            .filter(|&k| self.regions[k].window.is_some() && self.is_scenery(k, &all, options))
-            .collect();
-        for k in seen {
+        for k in self.scenery(options) {
             self.merge(0, k, options);
         }
+    }
+
+    /// Notes what may be one, and leaves it as it was drawn.
+    pub(super) fn note_parts(&mut self, options: &Options) {
+        let count = self.regions.len();
+        if let Some((whole, part)) = self.most_alike(&mut vec![None; count * count], options) {
+            self.regions[part].part_of = Some(whole);
+        }
+        if self.regions[0].model.translates() {
+            for k in self.scenery(options) {
+                self.regions[k].part_of.get_or_insert(0);
+            }
+        }
+    }
+
+    /// Regions that move as the background would at another depth.
+    fn scenery(&mut self, options: &Options) -> Vec<usize> {
+        if self.regions.len() < 2 {
+            return Vec::new();
+        }
+        let frames = [&self.pair.first().grey, &self.pair.second().grey];
+        let all = matches(frames[0], frames[1]);
+        (1..self.regions.len())
+            .filter(|&k| self.regions[k].window.is_some() && self.is_scenery(k, &all, options))
+            .collect()
     }
 
     /// The two touching regions that lose least as one body, if little. `lost` is what pairs are known to lose.
@@ -257,7 +274,6 @@ impl Layered {
         self.labels = labels;
         self.regions[into].state = state;
         self.regions[into].outcome = outcome;
-        self.regions[from].merged = Some(into);
         self.find_windows();
     }
 }

@@ -135,13 +135,17 @@ impl Layered {
         options: &Options,
     ) -> Vec<Grid<f32>> {
         let mut layered = Self::new(pair, camera, level_sets, options);
-        while matches!(layered.phase, Phase::Planar(_) | Phase::Search) {
+        loop {
             let before = layered.labels.clone();
             layered.find_motions(options);
             layered.find_depth(options);
             layered.move_curves(options);
             let pairs = before.data().iter().zip(layered.labels.data());
             let changed = pairs.filter(|(a, b)| a != b).count() as f64 / before.len() as f64;
+            if layered.phase == Phase::Search {
+                layered.merge_regions(options);
+                break;
+            }
             layered.end_pass(changed, false, options);
         }
         layered.level_sets()
@@ -254,7 +258,7 @@ impl Layered {
             }
             Phase::Planar(_) => (Phase::Search, Next::Another),
             Phase::Search => {
-                self.merge_regions(options);
+                self.note_parts(options);
                 (Phase::Rigid(0), Next::Another)
             }
             Phase::Rigid(done) => {

@@ -264,7 +264,7 @@ impl Approach for Paper {
             motion,
             model: MotionModel::seen(&self.camera, &motion),
             ambiguous: false,
-            merged: None,
+            part_of: None,
             in_front_of: Vec::new(),
         };
         self.motions.iter().map(state).collect()

@@ -46,8 +46,9 @@ pub struct RegionReport {
     /// Whether another motion, with another relief, explains the region as well: the flatter one is given, and
     /// confidence is at most one half.
     pub ambiguous: bool,
-    /// The label of the region that it was found to be a part of: one motion explains both, and it owns nothing any more.
-    pub merged: Option<usize>,
+    /// The label of another region, if one motion explains both as well as two do: they may be one thing, or it may be
+    /// scenery at another depth.
+    pub part_of: Option<usize>,
     /// Labels of the regions that it hides a part of.
     pub in_front_of: Vec<usize>,
 }
@@ -149,7 +150,7 @@ impl Report {
                 rotation: state.motion.rotation.to_array(),
                 model: state.model,
                 ambiguous: state.ambiguous,
-                merged: state.merged,
+                part_of: state.part_of,
                 in_front_of: state.in_front_of,
             })
             .collect();
@@ -188,7 +189,7 @@ impl Report {
 fn warnings(regions: &[RegionReport]) -> impl Iterator<Item = String> {
     let vanished = regions
         .iter()
-        .filter(|r| r.pixels == 0 && r.merged.is_none())
+        .filter(|r| r.pixels == 0)
         .map(|r| match r.label {
             0 => "The curves have taken the whole frame: no background is left.".to_owned(),
             k => format!("Curve {k} has vanished: nothing moves differently where it was drawn."),
@@ -200,15 +201,15 @@ fn warnings(regions: &[RegionReport]) -> impl Iterator<Item = String> {
         };
         format!("{name} has two explanations that fit equally well; the one with less relief is shown.")
     });
-    let merged = regions.iter().filter_map(|r| {
-        let into = match r.merged? {
+    let parts = regions.iter().filter(|r| r.pixels > 0).filter_map(|r| {
+        let whole = match r.part_of? {
             0 => "the background".to_owned(),
             k => format!("region {k}"),
         };
         let label = r.label;
         Some(format!(
-            "One motion explains region {label} and {into} as well as two: they are one region."
+            "One motion explains region {label} and {whole} as well as two do: they may be one."
         ))
     });
-    vanished.chain(merged).chain(ambiguous)
+    vanished.chain(parts).chain(ambiguous)
 }
