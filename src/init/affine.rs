@@ -143,3 +143,61 @@ impl Affine {
         DVec2::new(p[0] + p[1] * x + p[2] * y, p[3] + p[4] * x + p[5] * y)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+    use crate::init::matches::Match;
+
+    const MIDDLE: DVec2 = DVec2::new(80.0, 60.0);
+
+    /// An exact match of d = (1, −2) + A (x − m)/100 at (x, y).
+    fn sample(x: f32, y: f32) -> Sample {
+        let (p, q) = ((x - 80.0) / 100.0, (y - 60.0) / 100.0);
+        let matched = Match {
+            at: [x, y],
+            to: [x + 1.0 + 3.0 * p - q, y - 2.0 + 0.5 * p + 2.0 * q],
+            tensor: [4000.0, 300.0, 2500.0],
+            residual: 1.0,
+        };
+        Sample::new(matched, &Camera::centred(160.0, 160, 120).unwrap())
+    }
+
+    fn sum(samples: &[Sample]) -> Moments {
+        samples.iter().fold(Moments::default(), |sum, sample| {
+            sum.with(&Moments::of(sample, MIDDLE))
+        })
+    }
+
+    #[test]
+    fn sums_over_parts_are_those_of_the_whole_and_give_the_flow() {
+        let samples: Vec<Sample> = (0..60)
+            .map(|k| sample((k % 10 * 15) as f32, (k / 10 * 20) as f32))
+            .collect();
+        let whole = sum(&samples);
+        let parts = sum(&samples[..23]).with(&sum(&samples[23..]));
+        assert_eq!(whole.count, parts.count);
+        let (flow, same) = (whole.fit(), parts.fit());
+        // Slopes are held back a little.
+        assert!(flow.misfit < 1.0, "{}", flow.misfit);
+        for sample in &samples {
+            let found = flow.displacement(sample.at(), MIDDLE);
+            assert!((found - sample.displacement()).length() < 0.05);
+            assert!((found - same.displacement(sample.at(), MIDDLE)).length() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_more_matches_the_surer_and_farther_away_the_less() {
+        let row = |n: usize| {
+            sum(&(0..n)
+                .map(|k| sample(4.0 * k as f32, 60.0))
+                .collect::<Vec<_>>())
+        };
+        let at = DVec2::new(10.0, 60.0);
+        assert!(row(20).variance(at, MIDDLE) < row(6).variance(at, MIDDLE));
+        let far = DVec2::new(10.0, 20.0);
+        assert!(row(20).variance(far, MIDDLE) > 4.0 * row(20).variance(at, MIDDLE));
+    }
+}

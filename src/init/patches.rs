@@ -219,3 +219,54 @@ fn straighten(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::Camera;
+    use crate::init::matches::Match;
+
+    /// Matches over 160×120 pixels that move by `flow`, with a known error of a tenth of a pixel or so.
+    fn field(flow: impl Fn(f32, f32) -> [f32; 2]) -> (Vec<Sample>, Lattice) {
+        let camera = Camera::centred(160.0, 160, 120).unwrap();
+        let each = (0..40 * 30).map(|k| {
+            let [x, y] = [(k % 40 * 4 + 2) as f32, (k / 40 * 4 + 2) as f32];
+            let [u, v] = flow(x, y);
+            let off = |n: usize| 0.1 * ((n * 7919 % 101) as f32 / 50.0 - 1.0);
+            let matched = Match {
+                at: [x, y],
+                to: [x + u + off(k), y + v + off(k + 17)],
+                tensor: [3000.0, 0.0, 3000.0],
+                residual: 4.0,
+            };
+            Sample::new(matched, &camera)
+        });
+        let samples: Vec<Sample> = each.collect();
+        let lattice = Lattice::new(&samples, [160, 120]);
+        (samples, lattice)
+    }
+
+    #[test]
+    fn one_affine_flow_is_one_patch() {
+        let (samples, lattice) = field(|x, y| [0.02 * x - 1.0, 0.01 * y + 0.015 * x]);
+        let (of, count) = patches(&samples, &lattice);
+        assert_eq!(count, 1);
+        assert!(of.iter().all(|p| *p == Some(0)));
+    }
+
+    #[test]
+    fn two_flows_are_two_patches_along_the_line_between_them() {
+        let inside = |x: f32, y: f32| (40.0..88.0).contains(&x) && (32.0..80.0).contains(&y);
+        let (samples, lattice) = field(|x, y| match inside(x, y) {
+            true => [0.8, -0.4],
+            false => [0.0, 0.0],
+        });
+        let (of, count) = patches(&samples, &lattice);
+        assert_eq!(count, 2);
+        let body = of[lattice.at((16, 14)).unwrap()];
+        for (sample, patch) in samples.iter().zip(&of) {
+            let [x, y] = sample.matched.at;
+            assert_eq!(inside(x, y), *patch == body, "({x}, {y})");
+        }
+    }
+}

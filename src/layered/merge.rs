@@ -315,3 +315,6 @@ fn touching(labels: &Grid<u8>, count: usize) -> Vec<usize> {
     }
     pairs
 }
+
+#[cfg(test)]
+mod tests;
