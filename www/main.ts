@@ -17,6 +17,7 @@ import { mountProgress } from "./panels/progress";
 import { mountRegions } from "./panels/regions";
 import { mountScores } from "./panels/scores";
 import { mountSequence } from "./panels/sequence";
+import { mountTabs } from "./panels/tabs";
 import { mountTheme } from "./panels/theme";
 import { mountTransport } from "./panels/transport";
 import { mountViewbar } from "./panels/viewbar";
@@ -36,6 +37,7 @@ import { store } from "./store";
 byId("about").innerHTML = about;
 
 mountMessage();
+mountTabs();
 mountSequence();
 mountStage();
 mountTools();

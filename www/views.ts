@@ -29,13 +29,35 @@ export interface View {
   curves?: boolean;
 }
 
+/** What stands in the row of views: one view, or several that belong together. */
+export interface Group {
+  id: string;
+  label: string;
+  views: string[];
+}
+
+export const GROUPS: Group[] = [
+  { id: "curves", label: "Outlines", views: ["curves"] },
+  { id: "depth", label: "Depth", views: ["depth"] },
+  { id: "motion", label: "Motion", views: ["motion"] },
+  { id: "space", label: "3-D", views: ["relief", "anaglyph"] },
+  {
+    id: "diagnostics",
+    label: "Diagnostics",
+    views: ["labels", "confidence", "occlusion", "compare"],
+  },
+];
+
+export const groupOf = (view: string): Group =>
+  GROUPS.find(({ views }) => views.includes(view)) ?? GROUPS[0]!;
+
 const NONE = () => [];
 const ON_TOP: Setting = { key: "curvesOnTop", label: "Curves on top" };
 
 export const VIEWS: View[] = [
   {
     id: "curves",
-    label: "Curves",
+    label: "Outlines",
     hint: "The frame with its curves. Draw, move and resize them here.",
     kinds: NONE,
     settings: NONE,
