@@ -21,7 +21,9 @@ let last: Tab = "result";
 
 export function mountTabs(): void {
   for (const name of TABS) {
-    tabOf(name).addEventListener("click", () => show(NARROW.matches && open === name ? null : name));
+    tabOf(name).addEventListener("click", () =>
+      show(NARROW.matches && open === name ? null : name),
+    );
   }
   byId("tabs").addEventListener("keydown", (event) => {
     const here = TABS.findIndex((name) => tabOf(name) === document.activeElement);

@@ -86,7 +86,9 @@ function showView(state: Readonly<State>): void {
   byId("stage").dataset["view"] = view.id;
   const editable = view.id === "curves";
   byId("tools").hidden = !editable;
-  byId("overlay").hidden = !editable;
+  byId("overlay").hidden = view.id === "relief";
+  byId("overlay").ariaLabel = editable ? "Curves on the frame" : `${view.label}, pixel by pixel`;
+  byId("zoom").hidden = view.id === "relief";
   byId("showing").hidden = !editable;
   byId("relief").hidden = view.id !== "relief";
   // Not only cleared: some browsers go on showing a canvas on which nothing but clearing happens.
