@@ -3,7 +3,7 @@
 import AxeBuilder from "@axe-core/playwright";
 import type { Page } from "@playwright/test";
 
-import { chooseView, expect, open, read, runPasses, test } from "./helpers";
+import { chooseView, expect, open, read, runPasses, test, inResult, inSettings } from "./helpers";
 
 async function faults(page: Page): Promise<string[]> {
   const { violations } = await new AxeBuilder({ page }).analyze();
@@ -31,8 +31,8 @@ for (const colorScheme of ["light", "dark"] as const) {
     });
 
     test("axe finds nothing serious beside an error", async ({ opened: page }) => {
-      await page.getByLabel("Focal length f, px").fill("0");
-      await page.getByLabel("Focal length f, px").press("Enter");
+      await (await inSettings(page)).getByLabel("Focal length f, px").fill("0");
+      await (await inSettings(page)).getByLabel("Focal length f, px").press("Enter");
       await expect(page.locator("#message")).toBeVisible();
       expect(await faults(page)).toEqual([]);
     });
@@ -97,9 +97,11 @@ test.describe("on a phone", () => {
 test("the keyboard keeps its place when what it pressed goes away", async ({ opened: page }) => {
   const press = (name: string) => page.getByRole("button", { name }).press("Enter");
   await press("Delete curve 1");
-  await expect(page.getByRole("button", { name: "Delete curve 1" })).toBeFocused();
+  await expect(
+    (await inResult(page)).getByRole("button", { name: "Delete curve 1" }),
+  ).toBeFocused();
   await press("Delete curve 1");
-  await expect(page.getByRole("button", { name: "Add a circle" })).toBeFocused();
+  await expect((await inResult(page)).getByRole("button", { name: "Add a circle" })).toBeFocused();
   await runPasses(page, 1);
   await press("Reset");
   await expect(page.getByRole("button", { name: "Run" })).toBeFocused();

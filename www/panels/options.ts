@@ -95,7 +95,8 @@ function field(descriptor: OptionEntry) {
   const id = `option-${key}`;
   const head = make("div", { class: "option-head" }, make("label", { for: id }, label));
   const help = make("p", { class: "note", id: `${id}-help` }, meaning, " ");
-  if (term) help.append(make("span", { class: "term" }, term));
+  // What is no term of an equation is said by the heading.
+  if (term.includes("(")) help.append(make("span", { class: "term" }, term));
   const reason = make("strong", { class: "reason" });
   help.prepend(reason);
   const element = make("div", { class: "option" }, head);

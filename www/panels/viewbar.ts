@@ -18,7 +18,7 @@ export function mountViewbar(): void {
     },
   );
   store.watch(
-    ({ view, viewParams }) => [view, viewParams],
+    ({ view, viewParams, split }) => [view, viewParams, split?.left, split?.right],
     () => void look(),
   );
   new ResizeObserver(keepChosenInSight).observe(byId("views"));
