@@ -90,7 +90,7 @@ export async function inOpen(page: Page): Promise<Page> {
 
 /** The pace and the parts of a pass; behind a button where the window is not wide. */
 export async function inTransport(page: Page): Promise<Page> {
-  const more = page.getByRole("button", { name: "Parts of a pass, and pace" });
+  const more = page.getByRole("button", { name: "Single parts and speed" });
   if (!(await page.locator("#pace").isVisible())) await more.click();
   return page;
 }

@@ -16,6 +16,7 @@ import {
   test,
   until,
   inTransport,
+  pressView,
 } from "./helpers";
 
 test("a run says what it does, shows a bar that grows, and the time left", async ({
@@ -88,7 +89,7 @@ test("a view chosen in the middle of a long pass shows what the last one came to
     ["Confidence", "confidence"],
   ] as const) {
     const made = await passes(page);
-    await page.getByRole("radio", { name, exact: true }).check({ force: true });
+    await pressView(page, name);
     await page.waitForFunction(
       (id) => (window as unknown as { relievo: State }).relievo.pictured.startsWith(id),
       id,

@@ -13,6 +13,8 @@ import {
   test,
   until,
   inResult,
+  openTab,
+  pressView,
 } from "./helpers";
 
 test("a finished result plays before the core is there, and is the core's once it is", async ({
@@ -37,7 +39,7 @@ test("a finished result plays before the core is there, and is the core's once i
   await expect(page.locator("#status")).toContainText("Converged");
   await expect((await inResult(page)).locator("#scores-panel")).toBeVisible();
   // Any view can be had of it now.
-  await page.getByRole("radio", { name: "Anaglyph" }).check({ force: true });
+  await pressView(page, "Anaglyph");
   await until(page, ({ pictured }) => pictured.startsWith("anaglyph"));
   expect((await look(page)).colours).toBeGreaterThan(50);
 });
@@ -90,7 +92,11 @@ test("a recording can be played again, and what was there before is a step back"
   opened: page,
 }) => {
   await (await inResult(page)).getByRole("button", { name: "Add a circle" }).click();
-  await page.getByRole("button", { name: "Play a recorded solve" }).click();
+  await (
+    await openTab(page, "Learn")
+  )
+    .getByRole("button", { name: "Play a recorded solve" })
+    .click();
   await until(page, ({ playing, report }) => playing && (report?.iterations ?? 0) > 2);
   await until(page, ({ playing, started, busy }) => !playing && started && busy === null);
   await expect(page.locator("#status")).toContainText("Converged");
@@ -128,6 +134,6 @@ test("an unvisited sequence opens on its frame, whatever was looked at before", 
   await open(page, "./#blocks/depth");
   await openScene(page, "squares");
   await ready(page);
-  await expect(page.getByRole("radio", { name: "Curves", exact: true })).toBeChecked();
+  await expect(page.getByRole("radio", { name: "Outlines", exact: true })).toBeChecked();
   expect((await look(page)).colours).toBeGreaterThan(20);
 });

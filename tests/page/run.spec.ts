@@ -179,8 +179,8 @@ test("how good the result is expected to be is said", async ({ opened: page }) =
 test("options without effect under the preset are out of reach, and it is said why", async ({
   opened: page,
 }) => {
-  await page.getByText("Weights and choices").click();
-  const idle = page.locator("#options .option").filter({ hasText: "No effect under" });
+  await inSettings(page);
+  const idle = page.locator("#panel-settings .option").filter({ hasText: "No effect under" });
   const [steps, occlusion] = [
     (await inSettings(page)).locator("#option-depth_steps"),
     (await inSettings(page)).locator("#option-occlusion"),
@@ -255,8 +255,8 @@ test("numbers stand beside each region, and scores where the truth is known", as
 test("what belongs to the default preset is shown, and can be turned off while it runs", async ({
   opened: page,
 }) => {
-  await page.getByText("Weights and choices").click();
-  const levers = page.locator("#options input[type=checkbox]:not([id$=-auto])");
+  await inSettings(page);
+  const levers = page.locator("#panel-settings .option input[type=checkbox]:not([id$=-auto])");
   expect(await levers.count()).toBeGreaterThanOrEqual(4);
   for (const lever of await levers.all()) {
     await expect(lever).toBeVisible();
@@ -292,7 +292,7 @@ test("the paper's preset is one choice away, also while it runs", async ({ opene
 });
 
 test("a weight can be changed while it runs", async ({ opened: page }) => {
-  await page.getByText("Weights and choices").click();
+  await inSettings(page);
   await runLong(page);
   await (await inSettings(page)).getByLabel("Diffusion").selectOption("isotropic");
   await until(page, (state) => state.options["diffusion"] === "isotropic");
@@ -376,7 +376,7 @@ test("once it runs it does not seem paused, whatever was still being drawn", asy
 test("a refused value leaves the run alone, and its sentence goes with it", async ({
   opened: page,
 }) => {
-  await page.getByText("Weights and choices").click();
+  await inSettings(page);
   await runLong(page);
   // Files of one pass would be gone with the next.
   await expect((await inResult(page)).getByRole("button", { name: "Result files" })).toBeDisabled();
