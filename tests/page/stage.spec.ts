@@ -12,7 +12,11 @@ async function row(page: Page, x: number, y: number, count: number): Promise<num
       const canvas = element as HTMLCanvasElement;
       const box = canvas.getBoundingClientRect();
       const dense = canvas.width / box.width;
-      const context = canvas.getContext("2d")!;
+      // A copy: a canvas that is read often is drawn another way.
+      const copy = document.createElement("canvas");
+      [copy.width, copy.height] = [canvas.width, canvas.height];
+      const context = copy.getContext("2d", { willReadFrequently: true })!;
+      context.drawImage(canvas, 0, 0);
       return Array.from({ length: count! }, (_, i) => {
         const [r, g, b] = context.getImageData(
           Math.round((x! + i - box.left) * dense),
