@@ -37,7 +37,7 @@ export function adopt(
     report: found?.report ?? null,
     contours: found?.contours ?? [],
     // A recording has its last picture already.
-    ...(playing && found ? { pictures, pictured } : { pictures: [], pictured: "" }),
+    ...(playing && found ? { pictures, pictured } : { pictures: [], pictured: "", legends: [] }),
     scores: null,
     held: null,
     heldFound: null,

@@ -12,6 +12,7 @@ import type {
   Contour,
   Found,
   FrameFile,
+  Legend,
   OptionValues,
   Report,
   ScoreTable,
@@ -71,6 +72,14 @@ export interface ViewParams {
   curvesOnTop: boolean;
 }
 
+/** Two views with a divider between them; the sides are of `stage/sides.ts`. */
+export interface Split {
+  left: string;
+  right: string;
+  /** Where the divider is, 0 left to 1 right. */
+  at: number;
+}
+
 export interface State {
   /** What the core offers; `null` until it has loaded. */
   catalogues: Catalogues | null;
@@ -123,6 +132,8 @@ export interface State {
   /** Pictures, and the name of what they show (`views.ts`): it may lag behind what was chosen. */
   pictures: (ImageBitmap | null)[];
   pictured: string;
+  /** What the colours of the pictures stand for; `null` where they are no measure. */
+  legends: (Legend | null)[];
   scores: ScoreTable | null;
   /** The result as it was last put away, and what that came to. */
   held: Held | null;
@@ -133,6 +144,7 @@ export interface State {
   tool: Tool;
   view: string;
   viewParams: ViewParams;
+  split: Split | null;
   showing: Showing;
   /** A sentence for the message bar. */
   message: string | null;
@@ -205,6 +217,7 @@ export const store = new Store({
   contours: [],
   pictures: [],
   pictured: "",
+  legends: [],
   scores: null,
   held: null,
   heldFound: null,
@@ -222,6 +235,7 @@ export const store = new Store({
     compare: "flow",
     curvesOnTop: true,
   },
+  split: null,
   showing: "first",
   message: null,
 });

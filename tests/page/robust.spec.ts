@@ -13,6 +13,9 @@ import {
   runPasses,
   test,
   until,
+  inResult,
+  inSettings,
+  inTransport,
 } from "./helpers";
 
 const message = (page: Page) => page.locator("#message");
@@ -59,7 +62,7 @@ test("a panic is told with its text; the worker is renewed, frames and curves st
 }) => {
   await sabotage(page, PANIC);
   await open(page);
-  await page.getByRole("button", { name: "Add a circle" }).click();
+  await (await inResult(page)).getByRole("button", { name: "Add a circle" }).click();
   const shapes = await read(page, (state) => state.shapes);
   await page.getByRole("button", { name: "Run" }).click();
   await expect(page.locator("#message")).toContainText("the sky is falling", { timeout: PATIENCE });
@@ -78,7 +81,7 @@ test("a hang can be cancelled, even with a focal length that no camera has", asy
   // Pausing asks a worker that no longer listens; the page itself must still answer.
   await page.getByRole("radio", { name: "Depth", exact: true }).check({ force: true });
   await expect(page.locator("#hint")).toContainText("hatched");
-  const focal = page.getByLabel("Focal length f, px");
+  const focal = (await inSettings(page)).getByLabel("Focal length f, px");
   await focal.fill("0");
   await focal.press("Enter");
   await page.getByRole("button", { name: "Cancel" }).click();
@@ -122,8 +125,8 @@ test("never more than one progress is on its way", async ({ page }) => {
   await openScene(page, "flight");
   await chooseView(page, "Depth");
   // Far more passes in a second than the screen shows pictures.
-  await page.getByLabel("Preset").selectOption("paper");
-  await page.getByLabel("Pace").selectOption("as fast as it goes");
+  await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as it goes");
   await page.getByRole("button", { name: "Run" }).click();
   await page.waitForFunction(
     () => {
@@ -225,9 +228,9 @@ test("a worker killed at any moment is told; frames, curves and settings are the
   info.setTimeout((2 + kills) * PATIENCE);
   await page.addInitScript(keepWorkers);
   await open(page);
-  await page.getByRole("button", { name: "Add a circle" }).click();
-  await page.getByLabel("Preset").selectOption("paper");
-  await page.getByLabel("Pace").selectOption("as fast as it goes");
+  await (await inResult(page)).getByRole("button", { name: "Add a circle" }).click();
+  await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as it goes");
   const shapes = await read(page, (state) => state.shapes);
   const source = await read(page, (state) => state.source);
   let state = 7;
@@ -242,7 +245,7 @@ test("a worker killed at any moment is told; frames, curves and settings are the
     await until(page, ({ running, busy, frames }) => !running && busy === null && frames !== null);
     expect(await read(page, (state) => state.shapes)).toEqual(shapes);
     expect(await read(page, (state) => state.source)).toEqual(source);
-    await expect(page.getByLabel("Preset")).toHaveValue("paper");
+    await expect((await inSettings(page)).getByLabel("Preset")).toHaveValue("paper");
   }
   await runPasses(page, 3);
   expect(await read(page, (state) => state.report!.iterations)).toBeGreaterThan(0);
