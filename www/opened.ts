@@ -42,6 +42,7 @@ export function adopt(
     held: null,
     heldFound: null,
     scales: [],
+    ranges: { span: null, speed: null },
     showing: "first",
     tool: "select",
     playing: false,

@@ -80,6 +80,14 @@ export interface Split {
   at: number;
 }
 
+/** Ranges of colours that are held whatever is found; `null` where the core chooses. */
+export interface Ranges {
+  /** Least and greatest 1/Z. */
+  span: [number, number] | null;
+  /** Pixels per frame at full colour. */
+  speed: number | null;
+}
+
 export interface State {
   /** What the core offers; `null` until it has loaded. */
   catalogues: Catalogues | null;
@@ -145,6 +153,7 @@ export interface State {
   view: string;
   viewParams: ViewParams;
   split: Split | null;
+  ranges: Ranges;
   showing: Showing;
   /** A sentence for the message bar. */
   message: string | null;
@@ -236,6 +245,7 @@ export const store = new Store({
     curvesOnTop: true,
   },
   split: null,
+  ranges: { span: null, speed: null },
   showing: "first",
   message: null,
 });

@@ -186,12 +186,13 @@ export function wantedParams({
   viewParams,
   scales,
   width,
+  ranges,
 }: Readonly<State>): Record<string, unknown> {
   const { palette, glasses, baseline, convergence } = viewParams;
   // Arrows are lines: on a small frame they need finer pixels than the frame's.
   const magnify = width > 0 && width <= FINE_WIDTH ? 2 : 1;
   // The page draws a legend of its own, with numbers.
-  return { scales, palette, glasses, baseline, convergence, magnify, legend: false };
+  return { scales, palette, glasses, baseline, convergence, magnify, legend: false, ...ranges };
 }
 
 /** What the worker should send for what is shown. */

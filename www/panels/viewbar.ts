@@ -18,7 +18,7 @@ export function mountViewbar(): void {
     },
   );
   store.watch(
-    ({ view, viewParams, split }) => [view, viewParams, split?.left, split?.right],
+    ({ view, viewParams, split, ranges }) => [view, viewParams, split?.left, split?.right, ranges],
     () => void look(),
   );
   new ResizeObserver(keepChosenInSight).observe(byId("views"));

@@ -8,7 +8,8 @@ import type { Legend } from "../worker/protocol";
 
 export function mountLegend(): void {
   store.watch(
-    ({ legends, pictured, view, viewParams, split, shapes }) => [
+    ({ legends, pictured, view, viewParams, split, shapes, ranges }) => [
+      ranges,
       legends,
       pictured,
       view,
@@ -32,7 +33,9 @@ function show(state: Readonly<State>): void {
     seen.add(text);
     return [element(legend, comparing(state))];
   });
+  const holding = document.activeElement?.id === "hold-range";
   place.replaceChildren(...elements);
+  if (holding) document.getElementById("hold-range")?.focus();
 }
 
 function element(legend: Legend, compared: boolean): HTMLElement {
@@ -64,7 +67,30 @@ function element(legend: Legend, compared: boolean): HTMLElement {
       figure.append(keys(legend));
       break;
   }
+  // Beside the truth the range is the truth's.
+  if (legend.hold && !compared) figure.append(holder(legend.hold));
   return figure;
+}
+
+/** Holds the range as it is, so that passes can be compared, or lets it follow what is found. */
+function holder({ span, speed }: NonNullable<Legend["hold"]>): HTMLElement {
+  const { ranges } = store.state;
+  const held = span ? ranges.span !== null : ranges.speed !== null;
+  const button = make(
+    "button",
+    { type: "button", id: "hold-range", "aria-pressed": String(held) },
+    "Hold",
+    make("span", { class: "visually-hidden" }, " the range"),
+  );
+  button.title = held ? "The range is held; press to let it follow" : "Hold this range of colours";
+  button.addEventListener("click", () => {
+    store.update({
+      ranges: span
+        ? { ...ranges, span: held ? null : span }
+        : { ...ranges, speed: held ? null : speed },
+    });
+  });
+  return button;
 }
 
 /** The end of the ramp is up, or at the right where it lies. */
