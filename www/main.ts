@@ -22,6 +22,7 @@ import { mountTheme } from "./panels/theme";
 import { mountTransport } from "./panels/transport";
 import { mountViewbar } from "./panels/viewbar";
 import { mountRelief } from "./relief/relief";
+import { mountLessons } from "./lessons/panel";
 import { mountAddress } from "./memory/address";
 import { mountInstalled } from "./installed";
 import { begin } from "./memory/first";
@@ -67,6 +68,7 @@ mountHistory();
 mountRemember();
 mountKept();
 mountAddress();
+mountLessons();
 
 /** For the browser's console: what the page knows, to read. */
 Object.defineProperty(window, "relievo", { get: () => store.state });

@@ -155,6 +155,8 @@ export interface State {
   split: Split | null;
   ranges: Ranges;
   showing: Showing;
+  /** The address of the step of a lesson that is open. */
+  lessonStep: string | null;
   /** A sentence for the message bar. */
   message: string | null;
 }
@@ -247,5 +249,6 @@ export const store = new Store({
   split: null,
   ranges: { span: null, speed: null },
   showing: "first",
+  lessonStep: null,
   message: null,
 });
