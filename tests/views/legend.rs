@@ -68,7 +68,10 @@ fn the_truth_leaves_no_brightness_unexplained() {
         for x in 8..88 {
             let found = probe(&pair, truth, &[2.0], (x, y)).unwrap();
             assert_eq!(found.depth, 2.0 * truth.depth[(x, y)]);
-            assert_eq!((found.u, found.v), (truth.flow.u[(x, y)], truth.flow.v[(x, y)]));
+            assert_eq!(
+                (found.u, found.v),
+                (truth.flow.u[(x, y)], truth.flow.v[(x, y)])
+            );
             if !found.occluded {
                 left.push(found.psi.abs());
             }

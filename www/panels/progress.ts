@@ -1,6 +1,6 @@
 /** What is being done in one sentence, a bar, and the time that is left. */
 
-import { byId } from "../dom";
+import { byId, make } from "../dom";
 import { paceOf } from "../pace";
 import { estimate, type PassTime } from "../progress";
 import { store, type State } from "../store";
@@ -55,7 +55,11 @@ function show(state: Readonly<State>): void {
   // It does not go back when an estimate was too bright.
   const before = passes.length > 1 ? bar.value : 0;
   bar.value = Math.max(before, Math.min(0.99, done));
-  doing.textContent = `${task(report, state)} ${remaining(left)}`;
+  // A narrow screen has room for the time alone.
+  doing.replaceChildren(
+    make("span", { class: "task" }, `${task(report, state)} `),
+    make("span", { class: "left" }, remaining(left)),
+  );
 }
 
 function task({ level, levels, iterations }: Report, { options, shapes }: Readonly<State>): string {
