@@ -54,6 +54,18 @@ impl Solver {
         };
         Uint8Array::from(kept::write(self.found(), precision).as_slice())
     }
+
+    /// Where it stands, as bytes for `setState`: a few kilobytes under `best`. Meant for the end of a pass.
+    pub fn state(&self) -> Uint8Array {
+        Uint8Array::from(self.solver().state().as_slice())
+    }
+
+    /// Goes to where a solver of the same frames, camera, preset, detail and number of curves stood; on an error nothing is
+    /// changed. With `setOptions` it goes on from there under others.
+    #[wasm_bindgen(js_name = setState)]
+    pub fn set_state(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        self.change().set_state(bytes)
+    }
 }
 
 /// What a solver had found when it was asked to `keep` it.
