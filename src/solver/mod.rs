@@ -22,7 +22,7 @@ use std::rc::Rc;
 use history::History;
 
 use crate::camera::Camera;
-use crate::curves::{Contour, Shape, contours};
+use crate::curves::{Contour, Shape, contours, differing};
 use crate::energy::Energy;
 use crate::error::Error;
 use crate::frames::{Frame, FramePair, blur, shrunk_camera};
@@ -134,9 +134,7 @@ impl Solver {
     /// Counts a pass whose steps have been taken; `before` is who owned which pixel.
     fn end_pass(&mut self, before: &Grid<u8>) {
         let energy = self.energy().total();
-        let after = self.approach.labels();
-        let changed = before.data().iter().zip(after.data());
-        let changed = changed.filter(|(a, b)| a != b).count();
+        let changed = differing(before.data(), self.approach.labels().data());
         let (level, _) = self.approach.scale();
         self.history.last = Some(LastPass {
             stage: self.approach.stage(),

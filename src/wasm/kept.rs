@@ -7,7 +7,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use super::files::listed;
 use super::solver::{PICTURES, score_table};
 use super::{Frame, Json, Mesh, Picture, Scene, Solver, Word, draw, write};
-use crate::curves::Contour;
+use crate::curves::{Contour, differing};
 use crate::error::Error;
 use crate::file::kept::{self, Precision};
 use crate::file::motion::{MotionFile, RegionMotion, Seconds};
@@ -65,6 +65,22 @@ impl Solver {
     #[wasm_bindgen(js_name = setState)]
     pub fn set_state(&mut self, bytes: &[u8]) -> Result<(), Error> {
         self.change().set_state(bytes)
+    }
+
+    /// The share of pixels, 0–1, that have another label than in `labels`, which a solver of the same frames gave.
+    #[wasm_bindgen(js_name = labelsApart)]
+    pub fn labels_apart(&self, labels: &[u8]) -> Result<f64, Error> {
+        let own = &self.found().labels;
+        if labels.len() != own.len() {
+            return Err(Error::Length {
+                what: "labels",
+                width: own.width(),
+                height: own.height(),
+                expected: own.len(),
+                found: labels.len(),
+            });
+        }
+        Ok(differing(own.data(), labels) as f64 / own.len() as f64)
     }
 }
 
