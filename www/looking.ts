@@ -82,8 +82,20 @@ function draw({ pictures, legends, view, mesh }: Progress): void {
   if (mesh) meshListener(mesh);
 }
 
-/** Goes to a pass of the timeline, or, without one, to where the solver stands. */
-export function visit(to: Visit | null): void {
+/** Any other question about a pass, put to the viewer. */
+export async function askOf<T>(
+  standing: Standing,
+  use: (service: Remote) => Promise<T>,
+): Promise<T | null> {
+  const { source } = store.state;
+  return source && viewer.ask(source, standing, use);
+}
+
+/**
+ * Goes to a pass of the timeline, or, without one, to where the solver stands; resolves when it is drawn, or another was
+ * asked for.
+ */
+export async function visit(to: Visit | null): Promise<void> {
   const { state } = store;
   const { timeline } = state;
   if (!to || !timeline) {
@@ -91,8 +103,7 @@ export function visit(to: Visit | null): void {
     store.update({ visit: null, report: state.working, working: null });
     forgetAsked();
     if (state.running) slow ??= timeline?.lines.at(-1)?.passes.at(-1)?.pass ?? null;
-    void look();
-    return;
+    return look();
   }
   const kept = keptAt(timeline, to);
   const line = timeline.lines[to.line]!;
@@ -107,7 +118,7 @@ export function visit(to: Visit | null): void {
     forgetAsked();
     void tell();
   }
-  void lookBack();
+  await lookBack();
 }
 
 /** Whatever is still on its way is no longer wanted. */

@@ -246,6 +246,8 @@ export async function ask<T>(
   return answer;
 }
 
+const NOTHING: Wanted = { id: -1, view: "", pictures: [], longest: 1, mesh: null };
+
 /** The same of whoever shows what is looked at: of a pass left behind, that is the viewer. */
 export async function askShown<T>(
   phrase: string | null,
@@ -257,7 +259,7 @@ export async function askShown<T>(
   let answer: T | null = null;
   await attempt(phrase, async () => {
     answer = await viewer.ask(source, standing, async (service) => {
-      await service.visit(standing, { ...want(), pictures: [], mesh: null });
+      await service.visit(standing, NOTHING);
       return use(service);
     });
   });

@@ -55,11 +55,11 @@ export class Viewer {
     standing: Standing,
     use: Parameters<typeof this.client.call<T>>[0],
   ): Promise<T> {
-    return this.client.inTurn(async (service) => {
+    return this.alone(async () => {
       await this.open(source, standing);
       // It stands elsewhere afterwards.
       this.standing = null;
-      return use(service);
+      return this.client.call(use);
     });
   }
 
@@ -86,14 +86,26 @@ export class Viewer {
   private async draw({ source, standing, wanted }: Sight): Promise<Progress | null> {
     this.asked += 1;
     const id = this.asked;
-    const drawn = new Promise<Progress | null>((answer) => (this.answer = answer));
-    await this.client.inTurn(async (service) => {
+    return this.alone(async () => {
       await this.open(source, standing);
-      if (standing === this.standing) await service.look({ ...wanted, id });
-      else await service.visit(standing, { ...wanted, id });
+      const drawn = new Promise<Progress | null>((answer) => (this.answer = answer));
+      await this.client.call((service) =>
+        standing === this.standing
+          ? service.look({ ...wanted, id })
+          : service.visit(standing, { ...wanted, id }),
+      );
       this.standing = standing;
+      return drawn;
     });
-    return drawn;
+  }
+
+  private turn: Promise<unknown> = Promise.resolve();
+
+  /** One thing at a time: what is drawn must not move meanwhile. */
+  private alone<T>(use: () => Promise<T>): Promise<T> {
+    const mine = this.turn.then(use);
+    this.turn = mine.catch(() => {});
+    return mine;
   }
 
   private async open(source: Source, { setup }: Standing): Promise<void> {
