@@ -5,7 +5,7 @@
  * at its least energy. Two lines that have a stretch from the same break on share its height.
  */
 
-import { endOf, lengthOf, type Line, type Timeline } from "./line";
+import { lengthOf, type Line, type Timeline } from "./line";
 import { scaleName } from "./sentences";
 
 const SPACE = "http://www.w3.org/2000/svg";
@@ -16,9 +16,14 @@ const [TOP, BOTTOM] = [14, 84];
 /** With more passes dots would run into each other. */
 const MOST_DOTS = 90;
 
+interface Point {
+  at: number;
+  energy: number;
+}
+
 interface Stretch {
   start: number;
-  points: { at: number; energy: number }[];
+  points: Point[];
 }
 
 function stretchesOf({ first }: Timeline, line: Line): Stretch[] {
@@ -32,7 +37,7 @@ function stretchesOf({ first }: Timeline, line: Line): Stretch[] {
   return stretches;
 }
 
-/** Draws the lines, the one that is looked at last; gives where scales begin, as shares of the width. */
+/** Draws the lines. */
 export function drawChart(svg: SVGSVGElement, timeline: Timeline, current: number): void {
   const { first, lines } = timeline;
   const length = Math.max(1, lengthOf(timeline) - first);
@@ -51,37 +56,56 @@ export function drawChart(svg: SVGSVGElement, timeline: Timeline, current: numbe
   };
   svg.setAttribute("viewBox", `0 0 ${WIDE} ${HIGH}`);
   svg.setAttribute("preserveAspectRatio", "none");
-  const order = lines
-    .map((_, i) => i)
-    .sort((a, b) => Number(a === current) - Number(b === current));
   const breaks = lines[current]?.breaks.filter((at) => at > first && at < lengthOf(timeline)) ?? [];
+  const spot = (start: number, { at, energy }: Point) => `${across(at)} ${down(start, energy)}`;
+  const parts = partsOf(timeline, current).map(({ line, from, to, bright }) => {
+    const own = all[line]!.map(({ start, points }) => ({
+      start,
+      points: points.filter(({ at }) => at >= from && at <= to),
+    })).filter(({ points }) => points.length > 0);
+    const drawn = own.map(({ start, points }) => points.map((point) => spot(start, point)));
+    const areas = own.map(({ points }, i) => {
+      const [left, right] = [points[0]!, points.at(-1)!].map(({ at }) => across(at));
+      return `M${left} ${HIGH}L${drawn[i]!.join("L")}L${right} ${HIGH}Z`;
+    });
+    const dots = drawn.flat().map((place) => `M${place}h0`);
+    const tone = `line-${line}${bright ? " current" : ""}`;
+    return [
+      path(`area ${tone}`, areas.join("")),
+      path(`curve ${tone}`, drawn.map((places) => `M${places.join("L")}`).join("")),
+      path(`dots ${tone}`, dots.length <= MOST_DOTS ? dots.join("") : ""),
+    ];
+  });
+  const [parent, branch] = all.map((stretches) =>
+    stretches.flatMap(({ start, points }) => points.map((point) => spot(start, point))),
+  );
+  const fork = (lines[1]?.from ?? first) - first;
+  const ends = [parent?.[fork - 1], branch?.[fork]];
   svg.replaceChildren(
     path("break", breaks.map((at) => `M${across(at + 0.5)} 0V${HIGH}`).join("")),
-    ...order.flatMap((i) => {
-      // What both have in common is drawn once.
-      const from = i > 0 ? lines[i]!.from : first;
-      const own = all[i]!.map(({ start, points }) => ({
-        start,
-        points: points.filter(({ at }) => at > from),
-      })).filter(({ points }) => points.length > 0);
-      const place = (start: number) => (point: { at: number; energy: number }) =>
-        `${across(point.at)} ${down(start, point.energy)}`;
-      const curves = own.map(({ start, points }) => `M${points.map(place(start)).join("L")}`);
-      const areas = own.map(
-        ({ start, points }) =>
-          `M${across(points[0]!.at)} ${HIGH}L${points.map(place(start)).join("L")}L${across(points.at(-1)!.at)} ${HIGH}Z`,
-      );
-      const dots = own.flatMap(({ start, points }) =>
-        points.map((point) => `M${place(start)(point)}h0`),
-      );
-      const tone = `line-${i}${i === current ? " current" : ""}`;
-      return [
-        path(`area ${tone}`, areas.join("")),
-        path(`curve ${tone}`, curves.join("")),
-        path(`dots ${tone}`, dots.length <= MOST_DOTS ? dots.join("") : ""),
-      ];
-    }),
+    path("fork line-1", ends.every(Boolean) ? `M${ends.join("L")}` : ""),
+    ...parts.flat(),
   );
+}
+
+interface Part {
+  line: number;
+  from: number;
+  to: number;
+  /** Whether it is of the line that is looked at. */
+  bright: boolean;
+}
+
+/** What both lines have in common is drawn once; the line that is looked at last. */
+function partsOf({ first, lines }: Timeline, current: number): Part[] {
+  const branch = lines[1];
+  if (!branch) return [{ line: 0, from: first, to: Infinity, bright: true }];
+  const shared = { line: 0, from: first, to: branch.from, bright: true };
+  const own = [
+    { line: 0, from: branch.from, to: Infinity, bright: current === 0 },
+    { line: 1, from: branch.from + 1, to: Infinity, bright: current === 1 },
+  ];
+  return [shared, ...(current === 0 ? own.reverse() : own)];
 }
 
 /** Where scales begin: shares of the width, 0–1, and names. */
@@ -102,9 +126,6 @@ export function scalesOf(timeline: Timeline, current: number): { share: number; 
 /** How far along the width a place is, 0–1. */
 export const shareOf = (timeline: Timeline, at: number) =>
   (at - timeline.first) / Math.max(1, lengthOf(timeline) - timeline.first);
-
-/** Whether a line reaches a place. */
-export const reaches = (timeline: Timeline, line: Line, at: number) => at <= endOf(timeline, line);
 
 function path(name: string, d: string): SVGPathElement {
   const element = document.createElementNS(SPACE, "path");

@@ -17,7 +17,7 @@ const STAGES: Record<Last["stage"], [did: string, from: string]> = {
     "(7) with (1), by Gauss–Newton from each of them; labels by cheapest cuts",
   ],
   selection: [
-    "motion and relief were improved, and each region was asked whether it rests, turns, travels or does both",
+    "motion and relief were improved, and it was asked whether a region rests, turns, travels or does both",
     "(7), by Gauss–Newton, and a price for each number of a motion; labels by cheapest cuts",
   ],
   surfaces: [
@@ -26,7 +26,7 @@ const STAGES: Record<Last["stage"], [did: string, from: string]> = {
   ],
   steps: [
     "depth was looked for pixel by pixel where a smooth relief fails",
-    "ψ of (7) under every depth, neighbours kept alike; labels stay",
+    "ψ of (7) under every depth, neighbours kept alike",
   ],
   descent: [
     "motions, depth and curves took a step each",
@@ -70,11 +70,11 @@ export function energySentence({ first }: Timeline, line: Line, at: number): str
   if (energy === undefined) return "";
   const before = line.energies[at - first - 2];
   const e = `E ${number(energy)}`;
-  if (before === undefined) return e;
-  if (line.breaks.includes(at - 1)) return `${e}, another sum from here on`;
+  if (before === undefined) return `${e}.`;
+  if (line.breaks.includes(at - 1)) return `${e}, a new sum.`;
   const change = energy / before - 1;
-  if (Math.abs(change) < 5e-5) return `${e}, as before`;
-  return `${e}, ${percent(Math.abs(change), Math.abs(change) < 0.01 ? 2 : 1)} ${change < 0 ? "less" : "more"}`;
+  if (Math.abs(change) < 5e-5) return `${e}, as before.`;
+  return `${e}, ${percent(Math.abs(change), Math.abs(change) < 0.01 ? 2 : 1)} ${change < 0 ? "less" : "more"} than before.`;
 }
 
 /** The scale that a pass was made at, for the axis. */

@@ -35,11 +35,11 @@ const chart = document.createElementNS("http://www.w3.org/2000/svg", "svg");
 const scales = make("div", { class: "scales", "aria-hidden": "true" });
 const range = make("input", { type: "range", id: "pass", min: 0, step: 1, "aria-label": "Pass" });
 const sentence = make("p", { id: "pass-sentence", class: "sentence" });
-const energy = make("p", { class: "energy-now numbers" });
 const going = make("button", { type: "button", id: "go-on" }, "Go on from here");
-const lines = make("fieldset", { class: "segments small", hidden: true });
+const lines = make("fieldset", { class: "segments small" });
 const turns = make("button", { type: "button", id: "flicker", "aria-pressed": "false" }, "Flicker");
-const apart = make("p", { id: "apart", class: "apart", hidden: true });
+const apart = make("p", { id: "apart", class: "apart" });
+const two = make("div", { class: "two-lines", hidden: true }, lines, turns, apart);
 
 function button(name: string, picture: string): HTMLButtonElement {
   const title = { title: name, "aria-label": name };
@@ -60,12 +60,8 @@ export function mountTimeline(): void {
       make("div", { class: "track" }, scales, chart, range),
       beat,
     ),
-    make(
-      "div",
-      { class: "time-words" },
-      make("div", { class: "told" }, sentence, apart),
-      make("div", { class: "time-tools" }, energy, lines, turns, going),
-    ),
+    make("div", { class: "time-words" }, sentence, going),
+    two,
   );
   range.addEventListener("input", () => {
     rest();
@@ -150,10 +146,8 @@ function drawLines(state: Readonly<State>): void {
   if (!timeline) return rest();
   range.min = String(firstOf(state));
   range.max = String(lengthOf(timeline));
-  const two = timeline.lines.length > 1;
-  lines.hidden = !two;
-  turns.hidden = !two;
-  if (!two) return flickering(false);
+  two.hidden = timeline.lines.length < 2;
+  if (two.hidden) return flickering(false);
   lines.replaceChildren(
     make("legend", { class: "visually-hidden" }, "Line shown"),
     ...timeline.lines.map((line, i) =>
@@ -187,12 +181,9 @@ function show(state: Readonly<State>): void {
   range.style.setProperty("--share", String(shareOf(timeline, place.at)));
   range.dataset["line"] = String(place.line);
   const text = kept ? passSentence(timeline, line, kept) + thinnedSentence(place.at, at) : START;
-  sentence.textContent = text;
-  energy.textContent = kept ? energySentence(timeline, line, at) : "";
-  range.setAttribute(
-    "aria-valuetext",
-    kept ? `Pass ${at} of ${end}. ${energy.textContent}` : "The start",
-  );
+  const left = kept ? energySentence(timeline, line, at) : "";
+  sentence.textContent = `${text} ${left}`;
+  range.setAttribute("aria-valuetext", kept ? `Pass ${at} of ${end}. ${left}` : "The start");
   const choice = lines.querySelector<HTMLInputElement>(`input[value="${place.line}"]`);
   if (choice) choice.checked = true;
   back.disabled = place.at <= firstOf(state);
@@ -217,9 +208,8 @@ let compared = 0;
 /** How far the two lines are apart here, once nobody moves along them. */
 function compare(timeline: Timeline, at: number, running: boolean): void {
   const [one, other] = timeline.lines;
-  apart.hidden = !other || running;
+  if (running) apart.textContent = "";
   if (!one || !other || running) return;
-  if (!flickers()) apart.textContent = "";
   const mine = ++compared;
   setTimeout(async () => {
     if (mine !== compared || flickers()) return;
