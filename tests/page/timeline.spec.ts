@@ -122,8 +122,9 @@ test("a second line goes on with other settings, and both are compared", async (
   await chooseView(page, "Labels");
   const before = (await look(page)).print;
   await scrub(page, 7);
-  await page.getByLabel("Length λ").fill("40000");
-  await page.getByLabel("Length λ").press("Enter");
+  await page.locator("#option-lambda-auto").uncheck();
+  await page.locator("#option-lambda").fill("40000");
+  await page.locator("#option-lambda").press("Enter");
   await page.getByRole("button", { name: "Go on from here" }).click();
   await until(
     page,
