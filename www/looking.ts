@@ -82,13 +82,13 @@ function draw({ pictures, legends, view, mesh }: Progress): void {
   if (mesh) meshListener(mesh);
 }
 
-/** Any other question about a pass, put to the viewer. */
+/** A question about several passes, put to the viewer. */
 export async function askOf<T>(
   standing: Standing,
   use: (service: Remote) => Promise<T>,
 ): Promise<T | null> {
   const { source } = store.state;
-  return source && viewer.ask(source, standing, use);
+  return source && viewer.ask(source, standing, use, true);
 }
 
 /**

@@ -246,8 +246,6 @@ export async function ask<T>(
   return answer;
 }
 
-const NOTHING: Wanted = { id: -1, view: "", pictures: [], longest: 1, mesh: null };
-
 /** The same of whoever shows what is looked at: of a pass left behind, that is the viewer. */
 export async function askShown<T>(
   phrase: string | null,
@@ -258,10 +256,7 @@ export async function askShown<T>(
   if (!source || !standing) return ask(phrase, use);
   let answer: T | null = null;
   await attempt(phrase, async () => {
-    answer = await viewer.ask(source, standing, async (service) => {
-      await service.visit(standing, NOTHING);
-      return use(service);
-    });
+    answer = await viewer.ask(source, standing, use);
   });
   return answer;
 }

@@ -12,6 +12,8 @@ import type { Progress, Source, Standing, Wanted } from "./worker/protocol";
 /** After so long without work it is ended: frames take memory. */
 const IDLE_MS = 30_000;
 
+const NOTHING: Wanted = { id: -1, view: "", pictures: [], longest: 1, mesh: null };
+
 interface Sight {
   source: Source;
   standing: Standing;
@@ -49,16 +51,19 @@ export class Viewer {
     });
   }
 
-  /** Any other question about a pass. */
+  /** Any other question about a pass; one that `moves` leaves it standing elsewhere. */
   async ask<T>(
     source: Source,
     standing: Standing,
     use: Parameters<typeof this.client.call<T>>[0],
+    moves = false,
   ): Promise<T> {
     return this.alone(async () => {
       await this.open(source, standing);
-      // It stands elsewhere afterwards.
-      this.standing = null;
+      if (!moves && standing !== this.standing) {
+        await this.client.call((service) => service.visit(standing, NOTHING));
+      }
+      this.standing = moves ? null : standing;
       return this.client.call(use);
     });
   }
