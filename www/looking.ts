@@ -27,7 +27,12 @@ export function lookThrough(ask: Ask): void {
   askSolver = ask;
 }
 
-export const viewer = new Viewer((message) => store.update({ message: sentence(message) }));
+export const viewer = new Viewer((message) => {
+  // A solver in a pass draws it all the same, only later.
+  if (!store.state.visit) return;
+  void visit(null);
+  store.update({ message: sentence(message) });
+});
 
 /** The last pass of a solver whose passes take long, for the viewer to draw meanwhile. */
 let slow: Standing | null = null;
