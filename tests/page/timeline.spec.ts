@@ -7,6 +7,8 @@ import {
   chooseView,
   drawn,
   expect,
+  inSettings,
+  inTransport,
   look,
   open,
   openScene,
@@ -77,7 +79,7 @@ test("an earlier pass looks as it did when it was live, in every view", async ({
   await chooseView(page, "Depth");
   expect((await look(page)).print).toBe(live[7]);
   // The start: curves as drawn.
-  await chooseView(page, "Curves");
+  await chooseView(page, "Outlines");
   await scrub(page, 0);
   await expect(told(page)).toContainText("curves as drawn");
   expect(await read(page, (state) => state.started)).toBe(false);
@@ -86,7 +88,7 @@ test("an earlier pass looks as it did when it was live, in every view", async ({
 test("arrow keys step, the passes play, and a run is followed unless someone went back", async ({
   opened: page,
 }) => {
-  await page.getByLabel("Pace").selectOption("slow enough to watch");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("slow enough to watch");
   await page.getByRole("button", { name: "Run", exact: true }).click();
   await until(page, ({ report }) => (report?.iterations ?? 0) >= 4);
   // At the end it follows.
@@ -122,7 +124,7 @@ test("a second line goes on with other settings, and both are compared", async (
   await chooseView(page, "Labels");
   const before = (await look(page)).print;
   await scrub(page, 7);
-  await page.locator("#option-lambda-auto").uncheck();
+  await (await inSettings(page)).locator("#option-lambda-auto").uncheck();
   await page.locator("#option-lambda").fill("40000");
   await page.locator("#option-lambda").press("Enter");
   await page.getByRole("button", { name: "Go on from here" }).click();
@@ -159,7 +161,7 @@ test("where the settings allow no more, the curves alone go along, and that is s
 }) => {
   await solve(page);
   await scrub(page, 5);
-  await page.getByLabel("Preset").selectOption("paper");
+  await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
   await until(page, ({ visit }) => visit?.at === 5);
   await page.getByRole("button", { name: "Go on from here" }).click();
   await until(page, ({ timeline }) => (timeline?.lines[1]?.energies.length ?? 0) >= 6);

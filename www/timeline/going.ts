@@ -38,7 +38,9 @@ export function goTo(to: Visit): Promise<void> {
 function stands({ visit, started, report, working, timeline }: Readonly<State>): boolean {
   const own = visit ? working : started ? report : null;
   const line = timeline?.lines.at(-1);
-  return !!own && !!line && own.iterations === (line.passes.at(-1)?.pass.report.iterations ?? -1);
+  if (!own || !timeline || !line) return false;
+  // A solver that had only curves to go on from counts anew.
+  return own.iterations === endOf(timeline, line) - (line.whole ? 0 : line.from);
 }
 
 /** A pass on or back. */

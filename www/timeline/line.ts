@@ -70,6 +70,8 @@ function withPass(timeline: Timeline, line: Line, pass: Pass): Timeline {
   const { report, origin, energy, solve } = pass;
   const offset = origin && !origin.whole ? origin.at : 0;
   const at = offset + report.iterations;
+  // A recording leaves out what takes too much.
+  const kept = pass.bytes.length > 0 ? [{ at, pass }] : [];
   // Passes come in order; one that is made again takes the place of the last time.
   const made = line.energies.slice(0, at - timeline.first - 1);
   const own = pass.breaks.map((after) => after + offset);
@@ -79,7 +81,7 @@ function withPass(timeline: Timeline, line: Line, pass: Pass): Timeline {
     solve,
     energies: [...made, energy],
     breaks: [...new Set(breaks)].filter((after) => after > timeline.first),
-    passes: [...line.passes.filter((kept) => kept.at < at), { at, pass }],
+    passes: [...line.passes.filter((one) => one.at < at), ...kept],
   };
   const lines = timeline.lines.map((one) => (one === line ? longer : one));
   return { ...timeline, lines: bounded(lines) };

@@ -35,8 +35,12 @@ const STAGES: Record<Last["stage"], [did: string, from: string]> = {
 };
 
 /** One sentence on a pass. */
-export function passSentence(timeline: Timeline, line: Line, { at, pass }: Kept): string {
-  const { last, levels } = pass.report;
+export function passSentence(
+  timeline: Timeline,
+  line: Line,
+  at: number,
+  { last, levels }: Report,
+): string {
   if (!last) return `Pass ${at}.`;
   const scale = levels > 1 ? `, scale ${levels - last.level} of ${levels}` : "";
   const [did, from] = STAGES[last.stage];

@@ -94,7 +94,9 @@ export function mountTimeline(): void {
   });
   store.watch(({ timeline }) => [timeline], drawLines);
   store.watch(
-    ({ timeline, visit, started, running, busy }) => [timeline, visit, started, running, busy],
+    ({ timeline, visit, started, running, busy, report }) => [
+      ...[timeline, visit, started, running, busy, report],
+    ],
     show,
   );
   // Curves drawn anew, or another camera, are of the start.
@@ -176,14 +178,19 @@ function show(state: Readonly<State>): void {
   }
   const end = endOf(timeline, line);
   const kept = keptAt(timeline, place);
-  const at = kept?.at ?? place.at;
+  // Where the solver stands, it says so itself.
+  const own = state.visit ? null : state.report;
+  const at = own ? place.at : (kept?.at ?? place.at);
+  const report = place.at > timeline.first ? (own ?? kept?.pass.report) : null;
   range.value = String(place.at);
   range.style.setProperty("--share", String(shareOf(timeline, place.at)));
   range.dataset["line"] = String(place.line);
-  const text = kept ? passSentence(timeline, line, kept) + thinnedSentence(place.at, at) : START;
-  const left = kept ? energySentence(timeline, line, at) : "";
+  const text = report
+    ? passSentence(timeline, line, at, report) + thinnedSentence(place.at, at)
+    : START;
+  const left = report ? energySentence(timeline, line, at) : "";
   sentence.textContent = `${text} ${left}`;
-  range.setAttribute("aria-valuetext", kept ? `Pass ${at} of ${end}. ${left}` : "The start");
+  range.setAttribute("aria-valuetext", report ? `Pass ${at} of ${end}. ${left}` : "The start");
   const choice = lines.querySelector<HTMLInputElement>(`input[value="${place.line}"]`);
   if (choice) choice.checked = true;
   back.disabled = place.at <= firstOf(state);
