@@ -37,6 +37,7 @@ import { mountReadout } from "./stage/readout";
 import { mountStage } from "./stage/stage";
 import { mountTools } from "./stage/tools";
 import { mountZoom } from "./stage/zoom";
+import { mountTimeline } from "./timeline/timeline";
 import { store } from "./store";
 
 byId("about").innerHTML = about;
@@ -52,6 +53,7 @@ mountDivider();
 mountReadout();
 mountLegend();
 mountViewbar();
+mountTimeline();
 mountTransport();
 mountProgress();
 mountFrames();

@@ -14,17 +14,18 @@ let seen = 0;
 export function mountProgress(): void {
   store.watch(
     ({ running }) => [running],
-    ({ running, report }) => {
+    ({ running, report, working }) => {
       if (!running) return;
       passes = [];
       at = performance.now();
-      seen = report?.iterations ?? 0;
+      seen = (working ?? report)?.iterations ?? 0;
     },
   );
   store.watch(
-    ({ report, running, busy, playing }) => [report, running, busy, playing],
+    ({ report, working, running, busy, playing }) => [report, working, running, busy, playing],
     (state) => {
-      if (state.running && state.report) count(state.report);
+      const report = state.working ?? state.report;
+      if (state.running && report) count(report);
       show(state);
     },
   );
@@ -42,7 +43,8 @@ function count({ iterations, level }: Report): void {
 }
 
 function show(state: Readonly<State>): void {
-  const { running, busy, report, playing } = state;
+  const { running, busy, playing } = state;
+  const report = state.working ?? state.report;
   const bar = byId<HTMLProgressElement>("progress");
   bar.hidden = !running && (busy === null || playing);
   const doing = byId("doing");
