@@ -20,9 +20,10 @@ const DEEPEST: f32 = 0.8;
 const MOST: f32 = 3.0;
 
 /// Brings points on their lines of sight, z towards the eye that is at the origin, into a box of about −1 to 1 in x or y.
-/// `side` is the frame's longer side over f. `deepen` multiplies depth; `None` chooses.
-pub(super) fn boxed(points: &mut [Vec3], side: f32, deepen: Option<f32>) {
-    let [near, middle, far] = quantiles(points);
+/// `side` is the frame's longer side over f. `deepen` multiplies depth; `None` chooses. Only points that `count` tell
+/// how deep it is.
+pub(super) fn boxed(points: &mut [Vec3], count: &[bool], side: f32, deepen: Option<f32>) {
+    let [near, middle, far] = quantiles(points, count);
     // The frame's size at the middle depth; the box is half of it.
     let across = side * middle;
     let ratio = (far - near) / across;
@@ -34,7 +35,7 @@ pub(super) fn boxed(points: &mut [Vec3], side: f32, deepen: Option<f32>) {
         }
     }
     let automatic = (SHALLOWEST / ratio.max(1e-6)).clamp(1.0, MOST);
-    let [near, _, far] = quantiles(points);
+    let [near, _, far] = quantiles(points, count);
     let origin = Vec3::new(0.0, 0.0, -(near + far) / 2.0);
     let scale = Vec3::new(1.0, 1.0, deepen.unwrap_or(automatic)) * 2.0 / across;
     for p in points {
@@ -51,7 +52,8 @@ fn foreshortening(near: f32, far: f32, depth: f32) -> f32 {
 }
 
 /// Near, middle and far, without the wildest.
-fn quantiles(points: &[Vec3]) -> [f32; 3] {
-    let mut depths: Vec<f32> = points.iter().map(|p| -p.z).collect();
+fn quantiles(points: &[Vec3], count: &[bool]) -> [f32; 3] {
+    let counted = points.iter().zip(count).filter(|(_, counts)| **counts);
+    let mut depths: Vec<f32> = counted.map(|(p, _)| -p.z).collect();
     [0.02, 0.5, 0.98].map(|q| percentile(&mut depths, q).unwrap_or(1.0))
 }

@@ -5,12 +5,16 @@
 //! [`ViewParams::magnify`] or a pair side by side asks for it.
 
 mod anaglyph;
+mod arrangement;
 mod arrows;
+mod behind;
 mod colour;
 mod compare;
 mod depth;
 mod flow;
 mod foreshortening;
+mod layers;
+mod leaps;
 mod mask;
 mod mesh;
 mod palette;
@@ -21,7 +25,6 @@ mod segmentation;
 mod span;
 mod stereo;
 mod stroke;
-mod tears;
 
 pub use anaglyph::{GLASSES, Glasses, anaglyph, dubois};
 pub use arrows::arrows;
@@ -167,7 +170,9 @@ pub fn draw(
         });
     }
     let scaled;
-    let interpretation = if params.scales.iter().all(|&s| s == 1.0) {
+    // These take regions' depths from `arrangement.rs`, which knows the factors.
+    let arranged = ["relief", "anaglyph", "stereo"].contains(&kind);
+    let interpretation = if arranged || params.scales.iter().all(|&s| s == 1.0) {
         interpretation
     } else {
         scaled = interpretation.scaled(&params.scales);

@@ -1,0 +1,75 @@
+//! What is seen at each pixel, and what goes on behind it: two surfaces, of which relief and second eye are made.
+
+use super::ViewParams;
+use super::arrangement::arranged;
+use super::behind::behind;
+use super::leaps::{Leap, sharpen};
+use super::span::percentile;
+use crate::frames::Frame;
+use crate::grid::Grid;
+use crate::interpretation::Interpretation;
+
+/// The label where there is no surface.
+pub(super) const NOTHING: u8 = u8::MAX;
+/// How far beyond the middle nine tenths of 1/Z a scene reaches on the far side, as a share of them: what is farther is
+/// drawn there.
+const BEYOND: f32 = 0.25;
+
+/// One surface, a pixel at a time.
+pub(super) struct Layer {
+    /// The region that it is of, or [`NOTHING`].
+    pub labels: Grid<u8>,
+    /// Its 1/Z.
+    pub rho: Grid<f32>,
+    /// Its colour, sRGB.
+    pub colours: Grid<[u8; 3]>,
+}
+
+/// Both surfaces.
+pub(super) struct Layers {
+    /// What is seen.
+    pub seen: Layer,
+    /// What goes on behind it.
+    pub hidden: Layer,
+    /// Where depth leaps in what is seen: positive on the nearer side, zero on the outline, not a number elsewhere.
+    pub psi: Grid<f32>,
+    /// Whether the depth of each region is known.
+    pub known: Vec<bool>,
+    /// What is a leap.
+    pub leap: Leap,
+}
+
+impl Layers {
+    pub fn of(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Self {
+        let (mut rho, known) = arranged(found, params);
+        let labels = &found.labels;
+        let mut values: Vec<f32> = rho
+            .data()
+            .iter()
+            .zip(labels.data())
+            .filter(|(_, k)| known[usize::from(**k)])
+            .map(|(rho, _)| *rho)
+            .collect();
+        let at = |values: &mut [f32], q| percentile(values, q).unwrap_or(1.0);
+        let [far, near] = [at(&mut values, 0.02), at(&mut values, 0.98)];
+        let [farther, nearer] = [far - BEYOND * (near - far), near + (near - far)];
+        for value in rho.data_mut() {
+            *value = value.clamp(farther.max(0.5 * far), nearer.max(2.0 * far));
+        }
+        let leap = Leap::of(near - far);
+        let psi = sharpen(&mut rho, labels, leap);
+        let seen = Layer {
+            labels: labels.clone(),
+            rho,
+            colours: (*frame.rgb).clone(),
+        };
+        let hidden = behind(&seen, leap);
+        Self {
+            seen,
+            hidden,
+            psi,
+            known,
+            leap,
+        }
+    }
+}

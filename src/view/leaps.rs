@@ -1,0 +1,151 @@
+//! Where depth leaps within a region: one surface ends there, and another goes on behind it.
+//!
+//! Solvers spread a leap over some pixels. Between the least and the greatest 1/Z within [`REACH`] pixels,
+//!
+//! ```text
+//! ψ = (blurred 1/Z − (least + greatest)/2) / (greatest − least)
+//! ```
+//!
+//! is positive on the nearer side and negative on the farther one; its zero is the outline between pixels. What lies in
+//! between takes the depth of the side that it is on, so that nothing spans the leap.
+
+use crate::grid::Grid;
+
+/// Pixels on each side over which a leap may be spread.
+const REACH: usize = 3;
+/// The ratio of depths that makes a leap…
+const RATIO: f32 = 1.2;
+/// … and its share of the range of 1/Z that is drawn: less is a step within one thing.
+const SHARE: f32 = 0.12;
+/// Binomial weights, σ ≈ 1.2 pixels: they round the stairs of pixels and leave curves where they are.
+pub(super) const WEIGHTS: [f32; 7] = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0];
+
+/// What makes a leap of a change of 1/Z.
+#[derive(Clone, Copy)]
+pub(super) struct Leap {
+    /// Least difference.
+    pub least: f32,
+}
+
+impl Leap {
+    /// For a picture whose 1/Z goes over `range`.
+    pub fn of(range: f32) -> Self {
+        Self {
+            least: SHARE * range,
+        }
+    }
+
+    /// Whether there is one between two inverse depths.
+    pub fn between(self, a: f32, b: f32) -> bool {
+        let (low, high) = (a.min(b), a.max(b));
+        high > RATIO * low && high - low > self.least
+    }
+}
+
+/// Sharpens the leaps of `rho` within the regions of `labels` and gives ψ, not a number where depth does not leap.
+pub(super) fn sharpen(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Grid<f32> {
+    let (width, height) = (rho.width(), rho.height());
+    let low = window(rho, f32::min);
+    let high = window(rho, f32::max);
+    let mut psi = Grid::new(width, height, f32::NAN);
+    let blunt = rho.clone();
+    for y in 0..height {
+        for x in 0..width {
+            // Over all regions first, which is quick and never misses one.
+            if !leap.between(low[(x, y)], high[(x, y)]) {
+                continue;
+            }
+            let label = labels[(x, y)];
+            let around = Around::new(&blunt, labels, label, (x, y));
+            if !leap.between(around.low, around.high) {
+                continue;
+            }
+            let range = around.high - around.low;
+            let side = around.blurred - (around.low + around.high) / 2.0;
+            psi[(x, y)] = side / range;
+            let here = blunt[(x, y)];
+            rho[(x, y)] = if side >= 0.0 {
+                if here < around.high - 0.25 * range {
+                    around.near
+                } else {
+                    here
+                }
+            } else if here > around.low + 0.25 * range {
+                around.far
+            } else {
+                here
+            };
+        }
+    }
+    psi
+}
+
+/// What a region has within [`REACH`] of a pixel.
+struct Around {
+    low: f32,
+    high: f32,
+    blurred: f32,
+    /// Means of the nearest and of the farthest quarter of the range.
+    near: f32,
+    far: f32,
+}
+
+impl Around {
+    fn new(rho: &Grid<f32>, labels: &Grid<u8>, label: u8, at: (usize, usize)) -> Self {
+        let mut values = [(0.0f32, 0.0f32); 49];
+        let mut count = 0;
+        let (mut low, mut high, mut sum, mut weights) = (f32::INFINITY, 0.0f32, 0.0, 0.0);
+        for (place, weight) in neighbourhood(rho.width(), rho.height(), at) {
+            if labels[place] != label {
+                continue;
+            }
+            let value = rho[place];
+            (low, high) = (low.min(value), high.max(value));
+            sum += weight * value;
+            weights += weight;
+            values[count] = (value, weight);
+            count += 1;
+        }
+        let mean = |keep: &dyn Fn(f32) -> bool| {
+            let kept = values[..count].iter().filter(|(value, _)| keep(*value));
+            let (sum, all) = kept.fold((0.0, 0.0), |(s, a), (v, w)| (s + v * w, a + w));
+            sum / f32::max(all, 1e-9)
+        };
+        let quarter = 0.25 * (high - low);
+        Self {
+            low,
+            high,
+            blurred: sum / weights,
+            near: mean(&|value| value >= high - quarter),
+            far: mean(&|value| value <= low + quarter),
+        }
+    }
+}
+
+/// The pixels around `at` that lie in the picture, with their weights.
+pub(super) fn neighbourhood(
+    width: usize,
+    height: usize,
+    (x, y): (usize, usize),
+) -> impl Iterator<Item = ((usize, usize), f32)> {
+    (0..7).flat_map(move |j| {
+        (0..7).filter_map(move |i| {
+            let (x, y) = ((x + i).checked_sub(REACH)?, (y + j).checked_sub(REACH)?);
+            (x < width && y < height).then(|| ((x, y), WEIGHTS[i] * WEIGHTS[j]))
+        })
+    })
+}
+
+/// The least or greatest value within [`REACH`] of each pixel.
+pub(super) fn window<T: Copy>(grid: &Grid<T>, choose: fn(T, T) -> T) -> Grid<T> {
+    let (width, height) = (grid.width(), grid.height());
+    let around = |at: usize, side: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(side);
+    let across = Grid::from_fn(width, height, |x, y| {
+        let row = grid.row(y);
+        let first = row[x];
+        row[around(x, width)].iter().copied().fold(first, choose)
+    });
+    Grid::from_fn(width, height, |x, y| {
+        around(y, height).fold(across[(x, y)], |a, y| choose(a, across[(x, y)]))
+    })
+}
