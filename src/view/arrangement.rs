@@ -8,6 +8,7 @@
 
 use super::ViewParams;
 use super::span::{OBSERVABLE, Span, percentile};
+use super::steady::steadied;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 
@@ -20,8 +21,8 @@ const MOST: f32 = 4.0;
 /// How far beyond its span a region reaches, as a share of it.
 const BEYOND: f32 = 0.3;
 
-/// 1/Z as drawn at each pixel, and for each region whether its depth is known.
-pub(super) fn arranged(found: &Interpretation, params: &ViewParams) -> (Grid<f32>, Vec<bool>) {
+/// 1/Z as drawn at each pixel, and whether it is known.
+pub(super) fn arranged(found: &Interpretation, params: &ViewParams) -> (Grid<f32>, Grid<bool>) {
     let labels = found.labels.data();
     let count = usize::from(labels.iter().copied().max().unwrap_or(0)) + 1;
     let mut regions: Vec<Shown> = (0..=u8::MAX)
@@ -40,13 +41,15 @@ pub(super) fn arranged(found: &Interpretation, params: &ViewParams) -> (Grid<f32
     for (value, &label) in rho.data_mut().iter_mut().zip(labels) {
         *value = regions[usize::from(label)].rho(*value);
     }
+    let known: Vec<bool> = regions.iter().map(|r| r.known).collect();
+    let told = steadied(&mut rho, found, &known);
     let forward = forward(&rho, found, &regions);
     let scale = |k: usize| params.scales.get(k).map_or(1.0, |&s| s as f32);
     for (value, &label) in rho.data_mut().iter_mut().zip(labels) {
         let k = usize::from(label);
         *value *= forward[k] / scale(k);
     }
-    (rho, regions.iter().map(|r| r.known).collect())
+    (rho, told)
 }
 
 /// How a region is drawn.

@@ -34,6 +34,7 @@ pub(super) fn behind(seen: &Layer, leap: Leap) -> Layer {
         labels: Grid::new(width, height, NOTHING),
         rho: Grid::new(width, height, 0.0),
         colours: Grid::new(width, height, [0; 3]),
+        known: Grid::new(width, height, false),
     };
     let order = flood(seen, &mut hidden, leap);
     relax(seen, &mut hidden, &order);
@@ -100,6 +101,7 @@ fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap) -> Vec<usize> {
         hidden.labels.data_mut()[at] = label;
         hidden.rho.data_mut()[at] = rho[source];
         hidden.colours.data_mut()[at] = mirrored(seen, at, source);
+        hidden.known.data_mut()[at] = seen.known.data()[source];
         order.push(at);
         if far < furthest {
             queue.extend(beside(at, width, height).map(|next| (next, source, far + 1)));

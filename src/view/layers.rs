@@ -5,6 +5,7 @@ use super::arrangement::arranged;
 use super::behind::behind;
 use super::leaps::{Leap, sharpen};
 use super::span::percentile;
+use super::steady::median;
 use crate::frames::Frame;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
@@ -23,6 +24,8 @@ pub(super) struct Layer {
     pub rho: Grid<f32>,
     /// Its colour, sRGB.
     pub colours: Grid<[u8; 3]>,
+    /// Whether its depth is known.
+    pub known: Grid<bool>,
 }
 
 /// Both surfaces.
@@ -33,8 +36,6 @@ pub(super) struct Layers {
     pub hidden: Layer,
     /// Where depth leaps in what is seen: positive on the nearer side, zero on the outline, not a number elsewhere.
     pub psi: Grid<f32>,
-    /// Whether the depth of each region is known.
-    pub known: Vec<bool>,
     /// What is a leap.
     pub leap: Leap,
 }
@@ -46,8 +47,8 @@ impl Layers {
         let mut values: Vec<f32> = rho
             .data()
             .iter()
-            .zip(labels.data())
-            .filter(|(_, k)| known[usize::from(**k)])
+            .zip(known.data())
+            .filter(|(_, known)| **known)
             .map(|(rho, _)| *rho)
             .collect();
         let at = |values: &mut [f32], q| percentile(values, q).unwrap_or(1.0);
@@ -57,18 +58,19 @@ impl Layers {
             *value = value.clamp(farther.max(0.5 * far), nearer.max(2.0 * far));
         }
         let leap = Leap::of(near - far);
+        median(&mut rho, labels, leap.least / 2.0);
         let psi = sharpen(&mut rho, labels, leap);
         let seen = Layer {
             labels: labels.clone(),
             rho,
             colours: (*frame.rgb).clone(),
+            known,
         };
         let hidden = behind(&seen, leap);
         Self {
             seen,
             hidden,
             psi,
-            known,
             leap,
         }
     }

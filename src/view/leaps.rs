@@ -12,13 +12,17 @@
 use crate::grid::Grid;
 
 /// Pixels on each side over which a leap may be spread.
-const REACH: usize = 3;
+const REACH: usize = 5;
 /// The ratio of depths that makes a leap…
 const RATIO: f32 = 1.2;
 /// … and its share of the range of 1/Z that is drawn: less is a step within one thing.
 const SHARE: f32 = 0.12;
-/// Binomial weights, σ ≈ 1.2 pixels: they round the stairs of pixels and leave curves where they are.
-pub(super) const WEIGHTS: [f32; 7] = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0];
+/// Binomial weights, σ ≈ 1.2 pixels: they round the stairs of labels and leave curves where they are.
+pub(super) const LABELS: [f32; 7] = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0];
+/// The same, σ ≈ 1.6 pixels, for outlines within a region, which are found less exactly.
+const DEPTHS: [f32; 11] = [
+    1.0, 10.0, 45.0, 120.0, 210.0, 252.0, 210.0, 120.0, 45.0, 10.0, 1.0,
+];
 
 /// What makes a leap of a change of 1/Z.
 #[derive(Clone, Copy)]
@@ -92,10 +96,10 @@ struct Around {
 
 impl Around {
     fn new(rho: &Grid<f32>, labels: &Grid<u8>, label: u8, at: (usize, usize)) -> Self {
-        let mut values = [(0.0f32, 0.0f32); 49];
+        let mut values = [(0.0f32, 0.0f32); DEPTHS.len() * DEPTHS.len()];
         let mut count = 0;
         let (mut low, mut high, mut sum, mut weights) = (f32::INFINITY, 0.0f32, 0.0, 0.0);
-        for (place, weight) in neighbourhood(rho.width(), rho.height(), at) {
+        for (place, weight) in neighbourhood(&DEPTHS, rho.width(), rho.height(), at) {
             if labels[place] != label {
                 continue;
             }
@@ -123,15 +127,16 @@ impl Around {
 }
 
 /// The pixels around `at` that lie in the picture, with their weights.
-pub(super) fn neighbourhood(
+pub(super) fn neighbourhood<const N: usize>(
+    weights: &'static [f32; N],
     width: usize,
     height: usize,
     (x, y): (usize, usize),
 ) -> impl Iterator<Item = ((usize, usize), f32)> {
-    (0..7).flat_map(move |j| {
-        (0..7).filter_map(move |i| {
-            let (x, y) = ((x + i).checked_sub(REACH)?, (y + j).checked_sub(REACH)?);
-            (x < width && y < height).then(|| ((x, y), WEIGHTS[i] * WEIGHTS[j]))
+    (0..N).flat_map(move |j| {
+        (0..N).filter_map(move |i| {
+            let (x, y) = ((x + i).checked_sub(N / 2)?, (y + j).checked_sub(N / 2)?);
+            (x < width && y < height).then(|| ((x, y), weights[i] * weights[j]))
         })
     })
 }
@@ -142,8 +147,7 @@ pub(super) fn window<T: Copy>(grid: &Grid<T>, choose: fn(T, T) -> T) -> Grid<T> 
     let around = |at: usize, side: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(side);
     let across = Grid::from_fn(width, height, |x, y| {
         let row = grid.row(y);
-        let first = row[x];
-        row[around(x, width)].iter().copied().fold(first, choose)
+        row[around(x, width)].iter().copied().fold(row[x], choose)
     });
     Grid::from_fn(width, height, |x, y| {
         around(y, height).fold(across[(x, y)], |a, y| choose(a, across[(x, y)]))

@@ -12,8 +12,8 @@ use glam::{Vec2, Vec3};
 
 use super::ViewParams;
 use super::foreshortening::boxed;
-use super::layers::{Layers, NOTHING};
-use super::leaps::{neighbourhood, window};
+use super::layers::{Layer, Layers, NOTHING};
+use super::leaps::{LABELS, neighbourhood, window};
 use crate::frames::Frame;
 use crate::interpretation::Interpretation;
 
@@ -96,13 +96,21 @@ pub fn mesh(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Mesh 
     builder.finish(params)
 }
 
-/// A vertex of the grid: where it is, of which region and how deep.
+/// What a vertex shows.
+#[derive(Clone, Copy)]
+struct Point {
+    label: u8,
+    rho: f32,
+    rgb: [u8; 3],
+    known: bool,
+}
+
+/// A vertex of the grid.
 #[derive(Clone, Copy)]
 struct Corner {
     place: (usize, usize),
     vertex: u32,
-    label: u8,
-    rho: f32,
+    point: Point,
 }
 
 struct Builder<'a> {
@@ -120,11 +128,16 @@ struct Builder<'a> {
 
 impl Builder<'_> {
     /// A vertex at image place `at`, coloured as at `coloured`.
-    fn vertex(&mut self, at: Vec2, coloured: Vec2, label: u8, rho: f32, rgb: [u8; 3]) -> u32 {
+    fn vertex(&mut self, at: Vec2, coloured: Vec2, of: &Point) -> u32 {
+        let &Point {
+            label,
+            rho,
+            rgb,
+            known,
+        } = of;
         let z = rho.recip();
         let ray = self.found.camera.ray(at.x.into(), at.y.into()).as_vec3();
         let (w, h) = (self.frame.width() as f32, self.frame.height() as f32);
-        let known = self.layers.known[usize::from(label)];
         let m = &mut self.mesh;
         m.positions.extend([ray.x * z, -ray.y * z, -z]);
         m.uvs
@@ -153,14 +166,18 @@ impl Builder<'_> {
                 } else {
                     self.smoothed(place)
                 };
-                let rho = self.depth_of(label, place);
+                let point = Point {
+                    label,
+                    rho: self.depth_of(label, place),
+                    rgb: seen.colours[place],
+                    known: seen.known[place],
+                };
                 let at = Vec2::new(x as f32, y as f32);
-                let vertex = self.vertex(at, at, label, rho, seen.colours[place]);
+                let vertex = self.vertex(at, at, &point);
                 corners.push(Corner {
                     place,
                     vertex,
-                    label,
-                    rho,
+                    point,
                 });
             }
         }
@@ -173,7 +190,7 @@ impl Builder<'_> {
     fn smoothed(&self, place: (usize, usize)) -> u8 {
         let labels = &self.layers.seen.labels;
         let mut shares: Vec<(u8, f32)> = Vec::with_capacity(4);
-        for (near, weight) in neighbourhood(labels.width(), labels.height(), place) {
+        for (near, weight) in neighbourhood(&LABELS, labels.width(), labels.height(), place) {
             match shares.iter_mut().find(|(label, _)| *label == labels[near]) {
                 Some((_, share)) => *share += weight,
                 None => shares.push((labels[near], weight)),
@@ -186,7 +203,7 @@ impl Builder<'_> {
     /// A region's share of a pixel's neighbourhood.
     fn share(&self, label: u8, place: (usize, usize)) -> f32 {
         let labels = &self.layers.seen.labels;
-        let around = neighbourhood(labels.width(), labels.height(), place);
+        let around = neighbourhood(&LABELS, labels.width(), labels.height(), place);
         around
             .filter(|(near, _)| labels[*near] == label)
             .map(|(_, weight)| weight)
@@ -200,7 +217,7 @@ impl Builder<'_> {
             return seen.rho[place];
         }
         let (mut sum, mut weights) = (0.0, 0.0);
-        for (near, weight) in neighbourhood(seen.rho.width(), seen.rho.height(), place) {
+        for (near, weight) in neighbourhood(&LABELS, seen.rho.width(), seen.rho.height(), place) {
             if seen.labels[near] == label {
                 sum += weight * seen.rho[near];
                 weights += weight;
@@ -229,23 +246,24 @@ impl Builder<'_> {
                     outline.push(self.cut(corners[next], corners[i]));
                 }
             }
-            let ghost = !self.layers.known[usize::from(corners[first].label)];
-            let list = &mut self.triangles[if ghost { 2 } else { 0 }];
+            let known = corners[first].point.known;
+            let list = &mut self.triangles[if known { 0 } else { 2 }];
             for i in 2..outline.len() {
                 list.extend([outline[0], outline[i - 1], outline[i]]);
             }
         }
     }
 
-    /// Corners of one piece have the same number: of one region, and on one side of a leap.
-    fn pieces(&self, corners: &[Corner; 4]) -> [(u8, bool); 4] {
-        corners.map(|corner| {
-            let own = corners.iter().filter(|c| c.label == corner.label);
-            let (low, high) = own.fold((f32::INFINITY, 0.0f32), |(low, high), c| {
-                (low.min(c.rho), high.max(c.rho))
+    /// Corners of one piece have the same: of one region, on one side of a leap, and both known or not.
+    fn pieces(&self, corners: &[Corner; 4]) -> [(u8, bool, bool); 4] {
+        let points = corners.map(|corner| corner.point);
+        points.map(|point| {
+            let own = points.iter().filter(|p| p.label == point.label);
+            let (low, high) = own.fold((f32::INFINITY, 0.0f32), |(low, high), p| {
+                (low.min(p.rho), high.max(p.rho))
             });
-            let near = self.layers.leap.between(low, high) && corner.rho > (low + high) / 2.0;
-            (corner.label, near)
+            let near = self.layers.leap.between(low, high) && point.rho > (low + high) / 2.0;
+            (point.label, near, point.known)
         })
     }
 
@@ -255,12 +273,13 @@ impl Builder<'_> {
         if let Some(&vertex) = self.cuts.get(&key) {
             return vertex;
         }
-        let (here, there) = if own.label == other.label {
+        let labels = [own.point.label, other.point.label];
+        let (here, there) = if labels[0] == labels[1] {
             let psi = |c: Corner| self.layers.psi[c.place];
             (psi(own), -psi(other))
         } else {
             let lead = |at: Corner, against: Corner| {
-                self.share(at.label, at.place) - self.share(against.label, at.place)
+                self.share(at.point.label, at.place) - self.share(against.point.label, at.place)
             };
             (lead(own, other), lead(other, own))
         };
@@ -271,8 +290,7 @@ impl Builder<'_> {
         let at = place(own).lerp(place(other), way.clamp(LEAST, 1.0 - LEAST));
         // Short of the cut, where the frame's pixels mix both sides.
         let coloured = place(own).lerp(at, 0.5);
-        let rgb = self.layers.seen.colours[own.place];
-        let vertex = self.vertex(at, coloured, own.label, own.rho, rgb);
+        let vertex = self.vertex(at, coloured, &own.point);
         self.sources.push((vertex, own.vertex));
         self.cuts.insert(key, vertex);
         vertex
@@ -283,52 +301,48 @@ impl Builder<'_> {
         let (seen, hidden) = (&self.layers.seen, &self.layers.hidden);
         let leap = self.layers.leap;
         let at = |i: usize| (columns[i % columns.len()], rows[i / columns.len()]);
-        let mut values: Vec<Option<(u8, f32, [u8; 3])>> = (0..columns.len() * rows.len())
+        let point = |layer: &Layer, p: (usize, usize), back: f32| Point {
+            label: layer.labels[p],
+            rho: layer.rho[p] / (1.0 + back),
+            rgb: layer.colours[p].map(|c| (f32::from(c) * DIMMED) as u8),
+            known: layer.known[p],
+        };
+        let mut values: Vec<Option<Point>> = (0..columns.len() * rows.len())
             .map(at)
-            .map(|p| {
-                let label = hidden.labels[p];
-                (label != NOTHING).then(|| (label, hidden.rho[p], hidden.colours[p]))
-            })
+            .map(|p| (hidden.labels[p] != NOTHING).then(|| point(hidden, p, 0.0)))
             .collect();
         let reached: Vec<bool> = values.iter().map(Option::is_some).collect();
         for cell in cells(columns.len(), rows.len()) {
             for (i, j) in cell.into_iter().flat_map(|i| cell.map(|j| (i, j))) {
-                if !reached[i] || reached[j] {
+                let Some(from) = values[i].filter(|_| reached[i] && !reached[j]) else {
                     continue;
-                }
-                let (label, rho, _) = values[i].unwrap_or_default();
+                };
                 let p = at(j);
-                if seen.labels[p] == label && !leap.between(rho, seen.rho[p]) {
-                    values[j] = Some((label, seen.rho[p] / (1.0 + BEHIND), seen.colours[p]));
+                if seen.labels[p] == from.label && !leap.between(from.rho, seen.rho[p]) {
+                    values[j] = Some(point(seen, p, BEHIND));
                 }
             }
         }
-        let vertices: Vec<u32> = (0..values.len())
-            .map(|i| {
-                let Some((label, rho, rgb)) = values[i] else {
-                    return u32::MAX;
-                };
-                let (x, y) = at(i);
-                let place = Vec2::new(x as f32, y as f32);
-                let dim = rgb.map(|c| (f32::from(c) * DIMMED) as u8);
-                self.vertex(place, place, label, rho, dim)
-            })
-            .collect();
+        let placed = values.iter().enumerate().map(|(i, value)| {
+            let (x, y) = at(i);
+            let place = Vec2::new(x as f32, y as f32);
+            let vertex = value.map(|point| (self.vertex(place, place, &point), point));
+            vertex
+        });
+        let vertices: Vec<Option<(u32, Point)>> = placed.collect();
         for cell in cells(columns.len(), rows.len()) {
-            let there = cell.into_iter().filter(|&i| values[i].is_some());
-            let outline: Vec<usize> = there.collect();
-            let one = |(&a, &b): (&usize, &usize)| {
-                let (a, b) = (values[a].unwrap_or_default(), values[b].unwrap_or_default());
-                a.0 == b.0 && !leap.between(a.1, b.1)
-            };
-            let whole = outline.iter().zip(outline.iter().cycle().skip(1)).all(one);
+            let outline: Vec<(u32, Point)> = cell.iter().filter_map(|&i| vertices[i]).collect();
+            let next = outline.iter().cycle().skip(1);
+            let mut pairs = outline.iter().zip(next);
+            let whole =
+                pairs.all(|((_, a), (_, b))| a.label == b.label && !leap.between(a.rho, b.rho));
             if outline.len() < 3 || !whole {
                 continue;
             }
-            let known = self.mesh.known[vertices[outline[0]] as usize] != 0;
+            let known = outline.iter().all(|(_, point)| point.known);
             let list = &mut self.triangles[if known { 1 } else { 2 }];
             for i in 2..outline.len() {
-                list.extend([outline[0], outline[i - 1], outline[i]].map(|i| vertices[i]));
+                list.extend([outline[0], outline[i - 1], outline[i]].map(|(vertex, _)| vertex));
             }
         }
     }

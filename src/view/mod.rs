@@ -23,10 +23,11 @@ mod raster;
 mod relief;
 mod segmentation;
 mod span;
+mod steady;
 mod stereo;
 mod stroke;
 
-pub use anaglyph::{GLASSES, Glasses, anaglyph, dubois};
+pub use anaglyph::{GLASSES, Glasses, METHODS, anaglyph, dubois};
 pub use arrows::arrows;
 pub use colour::{decode, encode, luminance};
 pub use compare::{aligned, same_colours};
@@ -38,7 +39,7 @@ pub use palette::{LABEL_COLOURS, PALETTES, Palette};
 pub use params::{Choice, ViewParams};
 pub use relief::relief;
 pub use segmentation::{labels, segmentation};
-pub use stereo::{Rig, parallax, second_eye, stereo};
+pub use stereo::{LAYOUTS, Rig, parallax, second_eye, stereo};
 
 use serde::Serialize;
 
@@ -150,7 +151,7 @@ pub fn catalogue() -> &'static [View] {
 /// the labels are; without any, those of the labels are drawn.
 ///
 /// # Errors
-/// [`Error::Choice`] for an unknown view, palette or glasses, [`Error::Option`] for a parameter out of
+/// [`Error::Choice`] for an unknown view, palette, layout or glasses, [`Error::Option`] for a parameter out of
 /// range, [`Error::Length`] when frame and interpretation differ in size.
 pub fn draw(
     kind: &str,
@@ -187,7 +188,7 @@ pub fn draw(
         "flow" => Ok(flow(interpretation, params)),
         "arrows" => Ok(arrows(frame, interpretation, params)),
         "anaglyph" => anaglyph(frame, interpretation, params),
-        "stereo" => Ok(stereo(frame, interpretation, params)),
+        "stereo" => stereo(frame, interpretation, params),
         "confidence" => Ok(confidence(interpretation)),
         "occlusion" => Ok(occlusion(frame, interpretation, params)),
         _ => Err(Error::Choice {

@@ -1,0 +1,94 @@
+//! Depth without what nobody would believe: where it is barely observable, it is its region's around it.
+//!
+//! ```text
+//! 1/Z' = c/Z + (1 − c) · (G ∗ c/Z) / (G ∗ c)      c the confidence, full from ½ on; G a Gaussian
+//! ```
+//!
+//! within each region. Where even G ∗ c is next to nothing, depth is not known. Pixels that stand out singly take their
+//! neighbourhood's median.
+
+use super::leaps::window;
+use crate::frames::blur;
+use crate::grid::Grid;
+use crate::interpretation::Interpretation;
+use crate::window::Window;
+
+/// σ of G as a share of the longer side, and at most, in pixels.
+const WIDTH: (f32, f32) = (1.0 / 40.0, 10.0);
+/// Confidence from which a depth is taken as it is.
+const FULL: f32 = 0.5;
+/// The least G ∗ c of a known depth.
+const SUPPORT: f32 = 0.04;
+
+/// Steadies `rho` in the regions that are `known`; gives whether each pixel's depth is.
+pub(super) fn steadied(rho: &mut Grid<f32>, found: &Interpretation, known: &[bool]) -> Grid<bool> {
+    let (width, height) = (rho.width(), rho.height());
+    let sigma = (WIDTH.0 * width.max(height) as f32).min(WIDTH.1);
+    let mut told = found.labels.map(|label| known[usize::from(label)]);
+    let trust = found
+        .confidence
+        .map(|c| if c > 0.0 { (c / FULL).min(1.0) } else { 0.0 });
+    for k in (0..=u8::MAX)
+        .take(known.len())
+        .filter(|&k| known[usize::from(k)])
+    {
+        let own = |i: usize| found.labels.data()[i] == k;
+        let doubtful = (0..rho.len()).any(|i| own(i) && trust.data()[i] < 1.0);
+        let Some(w) = Window::around(width, height, own).filter(|_| doubtful) else {
+            continue;
+        };
+        let place = |x: usize, y: usize| (w.left + x, w.top + y);
+        let masked = |value: &dyn Fn((usize, usize)) -> f32| {
+            let inside = Grid::from_fn(w.width, w.height, |x, y| {
+                let at = place(x, y);
+                if found.labels[at] == k {
+                    value(at)
+                } else {
+                    0.0
+                }
+            });
+            blur(&inside, f64::from(sigma))
+        };
+        let weights = masked(&|at| trust[at]);
+        let sums = masked(&|at| trust[at] * rho[at]);
+        for y in 0..w.height {
+            for x in 0..w.width {
+                let at = place(x, y);
+                if found.labels[at] != k {
+                    continue;
+                }
+                let weight = weights[(x, y)];
+                told[at] = weight > SUPPORT;
+                let around = sums[(x, y)] / weight;
+                if around > 0.0 {
+                    rho[at] = trust[at] * rho[at] + (1.0 - trust[at]) * around;
+                }
+            }
+        }
+    }
+    told
+}
+
+/// Replaces `rho` by the median of its region within two pixels, where it differs by more than `least` nearby.
+pub(super) fn median(rho: &mut Grid<f32>, labels: &Grid<u8>, least: f32) {
+    let (low, high) = (window(rho, f32::min), window(rho, f32::max));
+    let (width, height) = (rho.width(), rho.height());
+    let noisy = rho.clone();
+    let around = |at: usize, side: usize| at.saturating_sub(2)..(at + 3).min(side);
+    let mut values = Vec::with_capacity(25);
+    for y in 0..height {
+        for x in 0..width {
+            if high[(x, y)] - low[(x, y)] < least {
+                continue;
+            }
+            values.clear();
+            for p in around(y, height).flat_map(|y| around(x, width).map(move |x| (x, y))) {
+                if labels[p] == labels[(x, y)] {
+                    values.push(noisy[p]);
+                }
+            }
+            let middle = values.len() / 2;
+            rho[(x, y)] = *values.select_nth_unstable_by(middle, f32::total_cmp).1;
+        }
+    }
+}
