@@ -17,7 +17,7 @@ use super::leaps::Leap;
 use crate::grid::Grid;
 
 /// How far a surface is continued, as a share of the longer side.
-const FURTHEST: f32 = 0.25;
+const FURTHEST: f32 = 0.2;
 /// How far behind what hides it a surface lies at least, as a share of 1/Z.
 const APART: f32 = 0.02;
 /// Sweeps of successive over-relaxation, and its factor. They end when the eye sees no difference, which is long before

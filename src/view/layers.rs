@@ -3,9 +3,10 @@
 use super::ViewParams;
 use super::arrangement::arranged;
 use super::behind::behind;
+use super::foreshortening::foreshorten;
 use super::leaps::{Leap, sharpen};
 use super::span::percentile;
-use super::steady::median;
+use super::steady::{mean, median};
 use crate::frames::Frame;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
@@ -20,7 +21,7 @@ const BEYOND: f32 = 0.25;
 pub(super) struct Layer {
     /// The region that it is of, or [`NOTHING`].
     pub labels: Grid<u8>,
-    /// Its 1/Z.
+    /// Its 1/Z, foreshortened.
     pub rho: Grid<f32>,
     /// Its colour, sRGB.
     pub colours: Grid<[u8; 3]>,
@@ -38,6 +39,8 @@ pub(super) struct Layers {
     pub psi: Grid<f32>,
     /// What is a leap.
     pub leap: Leap,
+    /// The farthest, the middle and the nearest 1/Z, without the wildest.
+    pub range: [f32; 3],
 }
 
 impl Layers {
@@ -52,14 +55,22 @@ impl Layers {
             .map(|(rho, _)| *rho)
             .collect();
         let at = |values: &mut [f32], q| percentile(values, q).unwrap_or(1.0);
-        let [far, near] = [at(&mut values, 0.02), at(&mut values, 0.98)];
+        let range = [0.02, 0.5, 0.98].map(|q| at(&mut values, q));
+        let [far, _, near] = range;
         let [farther, nearer] = [far - BEYOND * (near - far), near + (near - far)];
         for value in rho.data_mut() {
             *value = value.clamp(farther.max(0.5 * far), nearer.max(2.0 * far));
         }
-        let leap = Leap::of(near - far);
-        median(&mut rho, labels, leap.least / 2.0);
+        let side = frame.width().max(frame.height()) as f32 / found.camera.focal as f32;
+        let range = match params.relief {
+            None => foreshorten(rho.data_mut(), range, side),
+            Some(_) => range,
+        };
+        let leap = Leap::of(range[0], range[2]);
+        median(&mut rho, labels, leap);
+        sharpen(&mut rho, labels, leap);
         let psi = sharpen(&mut rho, labels, leap);
+        mean(&mut rho, labels, leap);
         let seen = Layer {
             labels: labels.clone(),
             rho,
@@ -72,6 +83,7 @@ impl Layers {
             hidden,
             psi,
             leap,
+            range,
         }
     }
 }

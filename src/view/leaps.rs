@@ -13,10 +13,10 @@ use crate::grid::Grid;
 
 /// Pixels on each side over which a leap may be spread.
 const REACH: usize = 5;
-/// The ratio of depths that makes a leap…
-const RATIO: f32 = 1.2;
-/// … and its share of the range of 1/Z that is drawn: less is a step within one thing.
-const SHARE: f32 = 0.12;
+/// The shares of the ranges of 1/Z and of Z that are drawn from which a change is a leap: less is a step within one thing.
+const SHARE: [f32; 2] = [0.15, 0.12];
+/// The least ratio of depths that is one: a shallow relief is drawn deeper than it is.
+const RATIO: f32 = 1.12;
 /// Binomial weights, σ ≈ 1.2 pixels: they round the stairs of labels and leave curves where they are.
 pub(super) const LABELS: [f32; 7] = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0];
 /// The same, σ ≈ 1.6 pixels, for outlines within a region, which are found less exactly.
@@ -27,22 +27,24 @@ const DEPTHS: [f32; 11] = [
 /// What makes a leap of a change of 1/Z.
 #[derive(Clone, Copy)]
 pub(super) struct Leap {
-    /// Least difference.
-    pub least: f32,
+    /// Least differences of 1/Z and of Z.
+    least: [f32; 2],
 }
 
 impl Leap {
-    /// For a picture whose 1/Z goes over `range`.
-    pub fn of(range: f32) -> Self {
+    /// For a picture whose 1/Z goes from `far` to `near`.
+    pub fn of(far: f32, near: f32) -> Self {
         Self {
-            least: SHARE * range,
+            least: [SHARE[0] * (near - far), SHARE[1] * (1.0 / far - 1.0 / near)],
         }
     }
 
     /// Whether there is one between two inverse depths.
     pub fn between(self, a: f32, b: f32) -> bool {
         let (low, high) = (a.min(b), a.max(b));
-        high > RATIO * low && high - low > self.least
+        // Z's difference, times the product of both 1/Z.
+        let apart = high - low;
+        high > RATIO * low && (apart > self.least[0] || apart > self.least[1] * low * high)
     }
 }
 
@@ -69,12 +71,12 @@ pub(super) fn sharpen(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Gri
             psi[(x, y)] = side / range;
             let here = blunt[(x, y)];
             rho[(x, y)] = if side >= 0.0 {
-                if here < around.high - 0.25 * range {
+                if here < around.high - 0.1 * range {
                     around.near
                 } else {
                     here
                 }
-            } else if here > around.low + 0.25 * range {
+            } else if here > around.low + 0.1 * range {
                 around.far
             } else {
                 here

@@ -352,14 +352,10 @@ impl Builder<'_> {
         m.parts = [0, 1, 2].map(|i| self.triangles[i].len() as u32);
         m.indices = self.triangles.concat();
         let mut points: Vec<Vec3> = m.positions.chunks_exact(3).map(Vec3::from_slice).collect();
-        let mut counts = vec![false; points.len()];
-        for &i in &self.triangles[0] {
-            counts[i as usize] = true;
-        }
         let side = self.frame.width().max(self.frame.height()) as f32;
         let deepen = params.relief.map(|r| r as f32);
         let focal = self.found.camera.focal as f32;
-        boxed(&mut points, &counts, side / focal, deepen);
+        boxed(&mut points, self.layers.range, side / focal, deepen);
         let mut normals = vec![Vec3::ZERO; points.len()];
         for t in m.indices.chunks_exact(3) {
             let [a, b, c] = [t[0], t[1], t[2]].map(|i| i as usize);

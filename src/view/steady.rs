@@ -5,9 +5,9 @@
 //! ```
 //!
 //! within each region. Where even G ∗ c is next to nothing, depth is not known. Pixels that stand out singly take their
-//! neighbourhood's median.
+//! neighbourhood's median, and what is left is averaged over five by five pixels, never across a leap.
 
-use super::leaps::window;
+use super::leaps::{Leap, window};
 use crate::frames::blur;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
@@ -69,26 +69,49 @@ pub(super) fn steadied(rho: &mut Grid<f32>, found: &Interpretation, known: &[boo
     told
 }
 
-/// Replaces `rho` by the median of its region within two pixels, where it differs by more than `least` nearby.
-pub(super) fn median(rho: &mut Grid<f32>, labels: &Grid<u8>, least: f32) {
+/// Replaces `rho` by the median of its region within two pixels, where depth leaps nearby.
+pub(super) fn median(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
     let (low, high) = (window(rho, f32::min), window(rho, f32::max));
-    let (width, height) = (rho.width(), rho.height());
     let noisy = rho.clone();
-    let around = |at: usize, side: usize| at.saturating_sub(2)..(at + 3).min(side);
     let mut values = Vec::with_capacity(25);
-    for y in 0..height {
-        for x in 0..width {
-            if high[(x, y)] - low[(x, y)] < least {
+    for y in 0..rho.height() {
+        for x in 0..rho.width() {
+            if !leap.between(low[(x, y)], high[(x, y)]) {
                 continue;
             }
             values.clear();
-            for p in around(y, height).flat_map(|y| around(x, width).map(move |x| (x, y))) {
-                if labels[p] == labels[(x, y)] {
-                    values.push(noisy[p]);
-                }
-            }
+            let own = around(&noisy, (x, y)).filter(|&p| labels[p] == labels[(x, y)]);
+            values.extend(own.map(|p| noisy[p]));
             let middle = values.len() / 2;
             rho[(x, y)] = *values.select_nth_unstable_by(middle, f32::total_cmp).1;
         }
     }
+}
+
+/// Replaces `rho` by the mean of its region within two pixels, but for what lies across a leap.
+pub(super) fn mean(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
+    let noisy = rho.clone();
+    for y in 0..rho.height() {
+        for x in 0..rho.width() {
+            let (label, here) = (labels[(x, y)], noisy[(x, y)]);
+            let (mut sum, mut count) = (0.0, 0.0);
+            for p in around(&noisy, (x, y)) {
+                if labels[p] == label && !leap.between(noisy[p], here) {
+                    sum += noisy[p];
+                    count += 1.0;
+                }
+            }
+            rho[(x, y)] = sum / count;
+        }
+    }
+}
+
+/// The pixels within two of `at`.
+fn around(
+    grid: &Grid<f32>,
+    (x, y): (usize, usize),
+) -> impl Iterator<Item = (usize, usize)> + use<> {
+    let range = |at: usize, side: usize| at.saturating_sub(2)..(at + 3).min(side);
+    let columns = range(x, grid.width());
+    range(y, grid.height()).flat_map(move |y| columns.clone().map(move |x| (x, y)))
 }
