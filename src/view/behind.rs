@@ -1,7 +1,7 @@
 //! The surface that goes on behind a silhouette.
 //!
 //! Across a cut, a border of regions or a leap of depth, the farther side is hidden by the nearer. It is continued under
-//! it, ring by ring, as far as [`FURTHEST`]; there its 1/Z is what solves
+//! it, ring by ring, as far as [`Cut::furthest`]; there its 1/Z is what solves
 //!
 //! ```text
 //! Δ(1/Z) = 0
@@ -16,8 +16,6 @@ use super::layers::{Layer, NOTHING};
 use super::leaps::Leap;
 use crate::grid::Grid;
 
-/// How far a surface is continued, as a share of the longer side.
-const FURTHEST: f32 = 0.2;
 /// How far behind what hides it a surface lies at least, as a share of 1/Z.
 const APART: f32 = 0.02;
 /// Sweeps of successive over-relaxation, and its factor. They end when the eye sees no difference, which is long before
@@ -27,8 +25,28 @@ const OVER: f32 = 1.85;
 /// Sweeps that smooth the mirrored colours.
 const SMOOTHED: usize = 6;
 
-/// What is hidden behind `seen`, nothing where nothing is known to be.
-pub(super) fn behind(seen: &Layer, leap: Leap) -> Layer {
+/// What parts the nearer from the farther.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Cut {
+    /// A border between regions.
+    Border,
+    /// A leap within one.
+    Leap,
+}
+
+impl Cut {
+    /// How far a surface is continued, as a share of the longer side. A body may be seen past altogether; a leap is often
+    /// no more than an edge.
+    fn furthest(self) -> f32 {
+        match self {
+            Self::Border => 0.5,
+            Self::Leap => 0.2,
+        }
+    }
+}
+
+/// What is hidden behind `seen` across one kind of cut, nothing where nothing is known to be.
+pub(super) fn behind(seen: &Layer, leap: Leap, cut: Cut) -> Layer {
     let (width, height) = (seen.rho.width(), seen.rho.height());
     let mut hidden = Layer {
         labels: Grid::new(width, height, NOTHING),
@@ -36,23 +54,20 @@ pub(super) fn behind(seen: &Layer, leap: Leap) -> Layer {
         colours: Grid::new(width, height, [0; 3]),
         known: Grid::new(width, height, false),
     };
-    let order = flood(seen, &mut hidden, leap);
-    relax(seen, &mut hidden, &order);
+    let order = flood(seen, &mut hidden, leap, cut);
+    relax(seen, &mut hidden, &order, leap);
     smooth(&mut hidden, &order);
     hidden
 }
 
-/// Which of two neighbours that a cut parts is the farther; `None` where there is no cut.
-fn farther(seen: &Layer, leap: Leap, p: usize, q: usize) -> Option<(usize, usize)> {
+/// The nearer and the farther of two neighbours that a cut parts; `None` where there is none.
+fn farther(seen: &Layer, leap: Leap, cut: Cut, p: usize, q: usize) -> Option<(usize, usize)> {
     let (a, b) = (seen.labels.data()[p], seen.labels.data()[q]);
     let (near, far) = (seen.rho.data()[p], seen.rho.data()[q]);
-    let first = if a == b {
-        if !leap.between(near, far) {
-            return None;
-        }
-        near > far
-    } else {
-        b == 0 || (a != 0 && near > far)
+    let first = match cut {
+        Cut::Leap if a == b && leap.between(near, far) => near > far,
+        Cut::Border if a != b => b == 0 || (a != 0 && near > far),
+        _ => return None,
     };
     Some(if first { (p, q) } else { (q, p) })
 }
@@ -71,9 +86,9 @@ fn beside(i: usize, width: usize, height: usize) -> impl Iterator<Item = usize> 
 }
 
 /// Continues every surface, with the values of the nearest pixel that is seen of it; gives what was reached, in order.
-fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap) -> Vec<usize> {
+fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap, cut: Cut) -> Vec<usize> {
     let (width, height) = (seen.rho.width(), seen.rho.height());
-    let furthest = (FURTHEST * width.max(height) as f32) as u32;
+    let furthest = (cut.furthest() * width.max(height) as f32) as u32;
     let (labels, rho) = (seen.labels.data(), seen.rho.data());
     let mut queue = VecDeque::new();
     for p in 0..labels.len() {
@@ -81,7 +96,7 @@ fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap) -> Vec<usize> {
             (p % width + 1 < width).then(|| p + 1),
             (p + width < labels.len()).then(|| p + width),
         ] {
-            if let Some((near, far)) = q.and_then(|q| farther(seen, leap, p, q)) {
+            if let Some((near, far)) = q.and_then(|q| farther(seen, leap, cut, p, q)) {
                 queue.push_back((near, far, 1));
             }
         }
@@ -127,20 +142,30 @@ fn mirrored(seen: &Layer, at: usize, source: usize) -> [u8; 3] {
     there.map_or(seen.colours.data()[source], |place| seen.colours[place])
 }
 
-fn relax(seen: &Layer, hidden: &mut Layer, order: &[usize]) {
+fn relax(seen: &Layer, hidden: &mut Layer, order: &[usize], leap: Leap) {
     let (width, height) = (seen.rho.width(), seen.rho.height());
     let behind = |rho: f32, at: usize| rho.min(seen.rho.data()[at] / (1.0 + APART));
+    // What is seen of the surface lies across the cut.
+    let parted = |at: usize, next: usize| {
+        let (near, far) = (seen.rho.data()[at], seen.rho.data()[next]);
+        seen.labels.data()[at] != seen.labels.data()[next]
+            || (near > far && leap.between(near, far))
+    };
+    // A ghost is flat.
+    let order: Vec<usize> = order
+        .iter()
+        .copied()
+        .filter(|&at| hidden.known.data()[at])
+        .collect();
     for _ in 0..SWEEPS {
-        for &at in order {
+        for &at in &order {
             let label = hidden.labels.data()[at];
             let here = hidden.rho.data()[at];
             let (mut sum, mut count) = (0.0, 0.0);
             for next in beside(at, width, height) {
                 let value = if hidden.labels.data()[next] == label {
                     hidden.rho.data()[next]
-                } else if seen.labels.data()[next] == label
-                    && seen.rho.data()[next] < (1.0 + APART) * seen.rho.data()[at]
-                {
+                } else if seen.labels.data()[next] == label && parted(at, next) {
                     seen.rho.data()[next]
                 } else {
                     continue;

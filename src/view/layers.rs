@@ -2,7 +2,7 @@
 
 use super::ViewParams;
 use super::arrangement::arranged;
-use super::behind::behind;
+use super::behind::{Cut, behind};
 use super::foreshortening::foreshorten;
 use super::leaps::{Leap, sharpen};
 use super::span::percentile;
@@ -33,8 +33,8 @@ pub(super) struct Layer {
 pub(super) struct Layers {
     /// What is seen.
     pub seen: Layer,
-    /// What goes on behind it.
-    pub hidden: Layer,
+    /// What goes on behind it, across borders of regions and across leaps.
+    pub hidden: [Layer; 2],
     /// Where depth leaps in what is seen: positive on the nearer side, zero on the outline, not a number elsewhere.
     pub psi: Grid<f32>,
     /// What is a leap.
@@ -77,7 +77,7 @@ impl Layers {
             colours: (*frame.rgb).clone(),
             known,
         };
-        let hidden = behind(&seen, leap);
+        let hidden = [Cut::Border, Cut::Leap].map(|cut| behind(&seen, leap, cut));
         Self {
             seen,
             hidden,

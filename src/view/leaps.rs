@@ -13,6 +13,9 @@ use crate::grid::Grid;
 
 /// Pixels on each side over which a leap may be spread.
 const REACH: usize = 5;
+/// Where, in pixels, it is looked whether a change goes on, and the least share of it all that a leap is.
+const BEYOND: usize = 12;
+const CONCENTRATED: f32 = 0.65;
 /// The shares of the ranges of 1/Z and of Z that are drawn from which a change is a leap: less is a step within one thing.
 const SHARE: [f32; 2] = [0.15, 0.12];
 /// The least ratio of depths that is one: a shallow relief is drawn deeper than it is.
@@ -39,6 +42,13 @@ impl Leap {
         }
     }
 
+    /// A change half as large.
+    pub fn half(self) -> Self {
+        Self {
+            least: self.least.map(|least| least / 2.0),
+        }
+    }
+
     /// Whether there is one between two inverse depths.
     pub fn between(self, a: f32, b: f32) -> bool {
         let (low, high) = (a.min(b), a.max(b));
@@ -48,24 +58,52 @@ impl Leap {
     }
 }
 
+/// Where depth leaps within the regions of `labels`.
+pub(super) fn leaping(rho: &Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Grid<bool> {
+    let low = window(rho, f32::min);
+    let high = window(rho, f32::max);
+    Grid::from_fn(rho.width(), rho.height(), |x, y| {
+        let at = (x, y);
+        // Over all regions first, which is quick and never misses one.
+        leap.between(low[at], high[at]) && {
+            let around = Around::new(rho, labels, at);
+            leap.between(around.low, around.high) && !goes_on(rho, labels, at, &around)
+        }
+    })
+}
+
+/// Whether 1/Z changes as much again beyond [`REACH`] as within, as it does on a steep plane.
+fn goes_on(rho: &Grid<f32>, labels: &Grid<u8>, (x, y): (usize, usize), around: &Around) -> bool {
+    let (mut low, mut high) = (around.low, around.high);
+    for dy in [0, BEYOND, 2 * BEYOND] {
+        for dx in [0, BEYOND, 2 * BEYOND] {
+            let (x, y) = (x + dx, y + dy);
+            let inside = (BEYOND..rho.width() + BEYOND).contains(&x)
+                && (BEYOND..rho.height() + BEYOND).contains(&y);
+            if !inside {
+                continue;
+            }
+            let place = (x - BEYOND, y - BEYOND);
+            if labels[place] == around.label {
+                (low, high) = (low.min(rho[place]), high.max(rho[place]));
+            }
+        }
+    }
+    around.high - around.low < CONCENTRATED * (high - low)
+}
+
 /// Sharpens the leaps of `rho` within the regions of `labels` and gives ψ, not a number where depth does not leap.
 pub(super) fn sharpen(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Grid<f32> {
     let (width, height) = (rho.width(), rho.height());
-    let low = window(rho, f32::min);
-    let high = window(rho, f32::max);
+    let leaps = leaping(rho, labels, leap);
     let mut psi = Grid::new(width, height, f32::NAN);
     let blunt = rho.clone();
     for y in 0..height {
         for x in 0..width {
-            // Over all regions first, which is quick and never misses one.
-            if !leap.between(low[(x, y)], high[(x, y)]) {
+            if !leaps[(x, y)] {
                 continue;
             }
-            let label = labels[(x, y)];
-            let around = Around::new(&blunt, labels, label, (x, y));
-            if !leap.between(around.low, around.high) {
-                continue;
-            }
+            let around = Around::new(&blunt, labels, (x, y));
             let range = around.high - around.low;
             let side = around.blurred - (around.low + around.high) / 2.0;
             psi[(x, y)] = side / range;
@@ -88,6 +126,7 @@ pub(super) fn sharpen(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Gri
 
 /// What a region has within [`REACH`] of a pixel.
 struct Around {
+    label: u8,
     low: f32,
     high: f32,
     blurred: f32,
@@ -97,7 +136,8 @@ struct Around {
 }
 
 impl Around {
-    fn new(rho: &Grid<f32>, labels: &Grid<u8>, label: u8, at: (usize, usize)) -> Self {
+    fn new(rho: &Grid<f32>, labels: &Grid<u8>, at: (usize, usize)) -> Self {
+        let label = labels[at];
         let mut values = [(0.0f32, 0.0f32); DEPTHS.len() * DEPTHS.len()];
         let mut count = 0;
         let (mut low, mut high, mut sum, mut weights) = (f32::INFINITY, 0.0f32, 0.0, 0.0);
@@ -119,6 +159,7 @@ impl Around {
         };
         let quarter = 0.25 * (high - low);
         Self {
+            label,
             low,
             high,
             blurred: sum / weights,

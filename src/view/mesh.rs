@@ -91,8 +91,10 @@ pub fn mesh(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Mesh 
         cuts: HashMap::new(),
         sources: Vec::new(),
     };
-    builder.see(&columns, &rows);
-    builder.continue_behind(&columns, &rows);
+    let corners = builder.see(&columns, &rows);
+    for hidden in &layers.hidden {
+        builder.continue_behind(hidden, &corners, columns.len());
+    }
     builder.finish(params)
 }
 
@@ -153,7 +155,7 @@ impl Builder<'_> {
     }
 
     /// The surface that is seen.
-    fn see(&mut self, columns: &[usize], rows: &[usize]) {
+    fn see(&mut self, columns: &[usize], rows: &[usize]) -> Vec<Corner> {
         let seen = &self.layers.seen;
         let least = window(&seen.labels, u8::min);
         let most = window(&seen.labels, u8::max);
@@ -184,6 +186,7 @@ impl Builder<'_> {
         for cell in cells(columns.len(), rows.len()) {
             self.cell(cell.map(|i| corners[i]));
         }
+        corners
     }
 
     /// The region that has most of a pixel's neighbourhood.
@@ -247,6 +250,14 @@ impl Builder<'_> {
                 }
             }
             let known = corners[first].point.known;
+            // A ghost that goes on is one sheet, which `continue_behind` draws: it must not show twice.
+            let hidden = &self.layers.hidden[0];
+            let continued = |c: &Corner| {
+                hidden.labels[c.place] == corners[first].point.label && !hidden.known[c.place]
+            };
+            if !known && corners.iter().any(continued) {
+                continue;
+            }
             let list = &mut self.triangles[if known { 0 } else { 2 }];
             for i in 2..outline.len() {
                 list.extend([outline[0], outline[i - 1], outline[i]]);
@@ -297,40 +308,53 @@ impl Builder<'_> {
     }
 
     /// The surface that goes on behind, from one vertex before it is hidden.
-    fn continue_behind(&mut self, columns: &[usize], rows: &[usize]) {
-        let (seen, hidden) = (&self.layers.seen, &self.layers.hidden);
+    fn continue_behind(&mut self, hidden: &Layer, corners: &[Corner], columns: usize) {
+        let seen = &self.layers.seen;
         let leap = self.layers.leap;
-        let at = |i: usize| (columns[i % columns.len()], rows[i / columns.len()]);
-        let point = |layer: &Layer, p: (usize, usize), back: f32| Point {
-            label: layer.labels[p],
-            rho: layer.rho[p] / (1.0 + back),
-            rgb: layer.colours[p].map(|c| (f32::from(c) * DIMMED) as u8),
-            known: layer.known[p],
-        };
-        let mut values: Vec<Option<Point>> = (0..columns.len() * rows.len())
-            .map(at)
-            .map(|p| (hidden.labels[p] != NOTHING).then(|| point(hidden, p, 0.0)))
+        let dim = |rgb: [u8; 3]| rgb.map(|c| (f32::from(c) * DIMMED) as u8);
+        let reached: Vec<Option<Point>> = corners
+            .iter()
+            .map(|&Corner { place, .. }| {
+                (hidden.labels[place] != NOTHING).then(|| Point {
+                    label: hidden.labels[place],
+                    rho: hidden.rho[place],
+                    rgb: dim(hidden.colours[place]),
+                    known: hidden.known[place],
+                })
+            })
             .collect();
-        let reached: Vec<bool> = values.iter().map(Option::is_some).collect();
-        for cell in cells(columns.len(), rows.len()) {
+        let mut values = reached.clone();
+        for cell in cells(columns, corners.len() / columns) {
             for (i, j) in cell.into_iter().flat_map(|i| cell.map(|j| (i, j))) {
-                let Some(from) = values[i].filter(|_| reached[i] && !reached[j]) else {
+                let (Some(from), None) = (reached[i], reached[j]) else {
                     continue;
                 };
-                let p = at(j);
-                if seen.labels[p] == from.label && !leap.between(from.rho, seen.rho[p]) {
-                    values[j] = Some(point(seen, p, BEHIND));
+                // Of a smoothed outline a pixel may lie on either side.
+                let Corner { place, point, .. } = corners[j];
+                let own = Point {
+                    label: seen.labels[place],
+                    rho: seen.rho[place],
+                    ..point
+                };
+                let one = |p: &Point| p.label == from.label && !leap.between(from.rho, p.rho);
+                if let Some(point) = [own, point].into_iter().find(one) {
+                    let back = if from.known { BEHIND } else { 0.0 };
+                    values[j] = Some(Point {
+                        rho: point.rho / (1.0 + back),
+                        rgb: dim(point.rgb),
+                        known: from.known,
+                        ..point
+                    });
                 }
             }
         }
         let placed = values.iter().enumerate().map(|(i, value)| {
-            let (x, y) = at(i);
+            let (x, y) = corners[i].place;
             let place = Vec2::new(x as f32, y as f32);
-            let vertex = value.map(|point| (self.vertex(place, place, &point), point));
-            vertex
+            value.map(|point| (self.vertex(place, place, &point), point))
         });
         let vertices: Vec<Option<(u32, Point)>> = placed.collect();
-        for cell in cells(columns.len(), rows.len()) {
+        for cell in cells(columns, corners.len() / columns) {
             let outline: Vec<(u32, Point)> = cell.iter().filter_map(|&i| vertices[i]).collect();
             let next = outline.iter().cycle().skip(1);
             let mut pairs = outline.iter().zip(next);

@@ -69,9 +69,10 @@ pub(super) fn steadied(rho: &mut Grid<f32>, found: &Interpretation, known: &[boo
     told
 }
 
-/// Replaces `rho` by the median of its region within two pixels, where depth leaps nearby.
+/// Replaces `rho` by the median of its region within two pixels, where it changes by half a leap nearby.
 pub(super) fn median(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
     let (low, high) = (window(rho, f32::min), window(rho, f32::max));
+    let leap = leap.half();
     let noisy = rho.clone();
     let mut values = Vec::with_capacity(25);
     for y in 0..rho.height() {
@@ -88,17 +89,22 @@ pub(super) fn median(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
     }
 }
 
-/// Replaces `rho` by the mean of its region within two pixels, but for what lies across a leap.
+/// Replaces `rho` by the mean of its region within two pixels, but for what lies across a leap. Pixels count in pairs on
+/// opposite sides, so that a plane stays one.
 pub(super) fn mean(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
     let noisy = rho.clone();
     for y in 0..rho.height() {
         for x in 0..rho.width() {
             let (label, here) = (labels[(x, y)], noisy[(x, y)]);
-            let (mut sum, mut count) = (0.0, 0.0);
-            for p in around(&noisy, (x, y)) {
-                if labels[p] == label && !leap.between(noisy[p], here) {
-                    sum += noisy[p];
-                    count += 1.0;
+            let (mut sum, mut count) = (here, 1.0);
+            for p in around(&noisy, (x, y)).take_while(|&p| p != (x, y)) {
+                let q = (2 * x - p.0, 2 * y - p.1);
+                if [p, q]
+                    .iter()
+                    .all(|&p| labels[p] == label && !leap.between(noisy[p], here))
+                {
+                    sum += noisy[p] + noisy[q];
+                    count += 2.0;
                 }
             }
             rho[(x, y)] = sum / count;
@@ -106,12 +112,15 @@ pub(super) fn mean(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
     }
 }
 
-/// The pixels within two of `at`.
+/// The pixels within two of `at`, fewer at the border, always as many on both sides.
 fn around(
     grid: &Grid<f32>,
     (x, y): (usize, usize),
 ) -> impl Iterator<Item = (usize, usize)> + use<> {
-    let range = |at: usize, side: usize| at.saturating_sub(2)..(at + 3).min(side);
+    let range = |at: usize, side: usize| {
+        let reach = at.min(side - 1 - at).min(2);
+        at - reach..at + reach + 1
+    };
     let columns = range(x, grid.width());
     range(y, grid.height()).flat_map(move |y| columns.clone().map(move |x| (x, y)))
 }

@@ -145,7 +145,7 @@ fn second_eye_of(layers: &Layers, focal: f64, rig: &Rig, interpolate: bool) -> G
     let mut out = Grid::new(width, height, [0_u8; 3]);
     for y in 0..height {
         let mut row = Row::new(width);
-        for layer in [&layers.seen, &layers.hidden] {
+        for layer in [&layers.seen].into_iter().chain(&layers.hidden) {
             let Layer { labels, rho, .. } = layer;
             let shifts: Vec<f32> = (0..width)
                 .map(|x| match labels[(x, y)] {

@@ -1,3 +1,4 @@
 //! Pictures and meshes of what was found.
 
+mod surface;
 mod view;

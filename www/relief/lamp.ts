@@ -5,15 +5,13 @@
  * rim is grazing light. It is dragged, or moved by the arrow keys; with Shift the pointer takes the light anywhere.
  */
 
-import { Vector3 } from "three";
-
 import { make } from "../dom";
 
 /** What the light shines on. */
 interface Lit {
   readonly canvas: HTMLCanvasElement;
   /** Where light comes from: x to the right, y up, z towards the eye; of length 1. */
-  lamp: Vector3;
+  lamp: [number, number, number];
 }
 
 export interface Lamp {
@@ -51,14 +49,14 @@ export function mountLamp(place: HTMLElement, lit: Lit): Lamp {
     const far = Math.hypot(x, y);
     const most = Math.sqrt(1 - LEAST ** 2);
     const [a, b] = far > most ? [(x / far) * most, (y / far) * most] : [x, y];
-    lit.lamp = new Vector3(a, b, Math.sqrt(1 - a * a - b * b));
+    lit.lamp = [a, b, Math.sqrt(1 - a * a - b * b)];
   };
   const toPointer = ({ clientX, clientY }: PointerEvent) => {
     const { x, y, r } = disc();
     shine((clientX - x) / r, (y - clientY) / r);
   };
   const follow = () => {
-    const { x, y, z } = lit.lamp;
+    const [x, y, z] = lit.lamp;
     const { r } = disc();
     handle.style.transform = `translate(-50%, -50%) translate(${x * r}px, ${-y * r}px)`;
     handle.classList.toggle("behind", z < 0);
@@ -67,7 +65,7 @@ export function mountLamp(place: HTMLElement, lit: Lit): Lamp {
   const key = (name: string) => {
     const arrow = ARROWS[name];
     if (!arrow) return false;
-    const { x, y } = lit.lamp;
+    const [x, y] = lit.lamp;
     shine(x + arrow[0], y + arrow[1]);
     return true;
   };

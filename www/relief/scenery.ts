@@ -88,7 +88,7 @@ export class Scenery {
     this.controls.addEventListener("start", () => (this.atHome = false));
     this.setMaterial(...this.dress);
     this.home();
-    this.lamp = new Vector3(-0.55, 0.55, 0.63);
+    this.lamp = [-0.55, 0.55, 0.63];
     new ResizeObserver(() => this.resize()).observe(place);
     this.resize();
   }
@@ -160,17 +160,14 @@ export class Scenery {
   }
 
   /** Where light comes from as the eye sees it: x to the right, y up, z towards the eye. */
-  get lamp(): Vector3 {
+  get lamp(): [number, number, number] {
     const turned = this.camera.quaternion.clone().invert();
-    return this.light.position.clone().normalize().applyQuaternion(turned);
+    return this.light.position.clone().normalize().applyQuaternion(turned).toArray();
   }
 
-  set lamp(from: Vector3) {
-    this.light.position
-      .copy(from)
-      .normalize()
-      .multiplyScalar(2)
-      .applyQuaternion(this.camera.quaternion);
+  set lamp(from: [number, number, number]) {
+    const direction = new Vector3(...from).normalize().applyQuaternion(this.camera.quaternion);
+    this.light.position.copy(direction).multiplyScalar(2);
     this.invalidate();
   }
 
