@@ -1,6 +1,7 @@
 //! Where depth leaps within a region: one surface ends there, and another goes on behind it.
 //!
-//! Solvers spread a leap over some pixels. Between the least and the greatest 1/Z within [`REACH`] pixels,
+//! Solvers spread a leap over some pixels. It is one where 1/Z changes within [`REACH`] pixels by half of what it does
+//! within [`BEYOND`]; a plane changes by a third. Between the least and the greatest 1/Z of the latter,
 //!
 //! ```text
 //! ψ = (blurred 1/Z − (least + greatest)/2) / (greatest − least)
@@ -14,8 +15,8 @@ use crate::grid::Grid;
 /// Pixels on each side over which a leap may be spread.
 const REACH: usize = 5;
 /// Where, in pixels, it is looked whether a change goes on, and the least share of it all that a leap is.
-const BEYOND: usize = 12;
-const CONCENTRATED: f32 = 0.65;
+const BEYOND: usize = 14;
+const CONCENTRATED: f32 = 0.55;
 /// The shares of the ranges of 1/Z and of Z that are drawn from which a change is a leap: less is a step within one thing.
 const SHARE: [f32; 2] = [0.15, 0.12];
 /// The least ratio of depths that is one: a shallow relief is drawn deeper than it is.
@@ -67,29 +68,34 @@ pub(super) fn leaping(rho: &Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Grid<bo
         // Over all regions first, which is quick and never misses one.
         leap.between(low[at], high[at]) && {
             let around = Around::new(rho, labels, at);
-            leap.between(around.low, around.high) && !goes_on(rho, labels, at, &around)
+            leap.between(around.low, around.high) && {
+                let (low, high) = beyond(rho, labels, at, &around);
+                // A steep plane goes on changing.
+                around.high - around.low > CONCENTRATED * (high - low)
+            }
         }
     })
 }
 
-/// Whether 1/Z changes as much again beyond [`REACH`] as within, as it does on a steep plane.
-fn goes_on(rho: &Grid<f32>, labels: &Grid<u8>, (x, y): (usize, usize), around: &Around) -> bool {
+/// The least and the greatest 1/Z of a pixel's region around it and [`BEYOND`] it.
+fn beyond(
+    rho: &Grid<f32>,
+    labels: &Grid<u8>,
+    (x, y): (usize, usize),
+    around: &Around,
+) -> (f32, f32) {
     let (mut low, mut high) = (around.low, around.high);
-    for dy in [0, BEYOND, 2 * BEYOND] {
-        for dx in [0, BEYOND, 2 * BEYOND] {
-            let (x, y) = (x + dx, y + dy);
-            let inside = (BEYOND..rho.width() + BEYOND).contains(&x)
-                && (BEYOND..rho.height() + BEYOND).contains(&y);
-            if !inside {
+    for y in [y.checked_sub(BEYOND), Some(y), Some(y + BEYOND)] {
+        for x in [x.checked_sub(BEYOND), Some(x), Some(x + BEYOND)] {
+            let Some(place) = x.zip(y).filter(|p| p.0 < rho.width() && p.1 < rho.height()) else {
                 continue;
-            }
-            let place = (x - BEYOND, y - BEYOND);
+            };
             if labels[place] == around.label {
                 (low, high) = (low.min(rho[place]), high.max(rho[place]));
             }
         }
     }
-    around.high - around.low < CONCENTRATED * (high - low)
+    (low, high)
 }
 
 /// Sharpens the leaps of `rho` within the regions of `labels` and gives ψ, not a number where depth does not leap.
@@ -105,8 +111,9 @@ pub(super) fn sharpen(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Gri
             }
             let around = Around::new(&blunt, labels, (x, y));
             let range = around.high - around.low;
-            let side = around.blurred - (around.low + around.high) / 2.0;
-            psi[(x, y)] = side / range;
+            let (low, high) = beyond(&blunt, labels, (x, y), &around);
+            let side = around.blurred - (low + high) / 2.0;
+            psi[(x, y)] = side / (high - low);
             let here = blunt[(x, y)];
             rho[(x, y)] = if side >= 0.0 {
                 if here < around.high - 0.1 * range {

@@ -199,7 +199,7 @@ fn a_region_stands_before_the_ground_whatever_its_unit_unless_it_is_put_elsewher
 
 #[test]
 fn a_few_wild_depths_neither_stretch_the_scene_nor_leave_it() {
-    let wild = |x: f32, y: f32| (x * 7.0 + y * 13.0) % 101.0 < 1.0;
+    let wild = |x: f32, y: f32| (x * 7.0 + y * 13.0 + 5.0) % 101.0 < 1.0;
     let hill =
         |x: f32, y: f32| 1.0 + 0.3 * (-((x - 48.0).powi(2) + (y - 36.0).powi(2)) / 200.0).exp();
     let (frame, tame) = painted(96, 72, |_, _| 0, |_, x, y| hill(x, y));
