@@ -86,7 +86,7 @@ export const VIEWS: View[] = [
         choices: [
           { value: "anaglyph", label: "Anaglyph" },
           ...(catalogues?.layouts ?? []),
-          { value: "wiggle", label: "Wiggle: the eyes' pictures in turn" },
+          { value: "wiggle", label: "Wiggle" },
         ],
       },
       { key: "glasses", label: "Glasses", choices: catalogues?.glasses ?? [] },

@@ -27,19 +27,20 @@ const LEAST_BEHIND: f32 = 0.5;
 /// The columns at each side, as a share of the width, that a convergence that is not given looks at.
 const BORDER: f32 = 0.03;
 
-/// How a pair can be laid out, left eye's picture first.
+/// How a pair can be laid out: for eyes that look ahead, the left one's picture left; for crossed eyes, right; and for 3-D
+/// screens, which take both at half their width.
 pub const LAYOUTS: [Choice; 3] = [
     Choice {
         value: "parallel",
-        label: "Parallel: the left eye looks left",
+        label: "Parallel",
     },
     Choice {
         value: "crossed",
-        label: "Cross-eyed: the left eye looks right",
+        label: "Cross-eyed",
     },
     Choice {
         value: "half",
-        label: "Side by side at half width, for 3-D screens",
+        label: "Side by side, half width",
     },
 ];
 

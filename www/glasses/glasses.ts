@@ -10,8 +10,11 @@ import { takePicture } from "../panels/files";
 import { SharpCanvas } from "../stage/canvas";
 import { store, type State } from "../store";
 
-/** Each eye's picture is shown for so long: about three times both in a second. */
-const TURN_MS = 160;
+/** Each eye's picture is shown for so long: six in a second. */
+const TURN_MS = 166;
+
+/** Between pictures that are to be fused, in CSS pixels. */
+const GAP = 8;
 
 let second = false;
 let turning: ReturnType<typeof setInterval> | undefined;
@@ -101,14 +104,26 @@ function paint(
   if (!picture?.width || !state.pictured.endsWith("stereo")) return;
   context.fillStyle = getComputedStyle(byId("stage")).backgroundColor;
   context.fillRect(0, 0, width, height);
-  const half = wiggling(state);
-  const from = { x: half && second ? picture.width / 2 : 0, width: picture.width / (half ? 2 : 1) };
+  const wiggle = wiggling(state);
+  // Pictures at half their width are for a screen that takes them without a gap.
+  const gap = wiggle || state.viewParams.presentation === "half" ? 0 : GAP;
   const margin = Math.min(16, width / 40);
-  const scale = Math.min((width - 2 * margin) / from.width, (height - 2 * margin) / picture.height);
-  const [w, h] = [from.width * scale, picture.height * scale];
-  context.imageSmoothingQuality = "medium";
-  context.drawImage(
-    picture,
-    ...[from.x, 0, from.width, picture.height, (width - w) / 2, (height - h) / 2, w, h],
+  const half = picture.width / 2;
+  const across = wiggle ? half : picture.width;
+  const scale = Math.min(
+    (width - 2 * margin - gap) / across,
+    (height - 2 * margin) / picture.height,
   );
+  const [w, h] = [half * scale, picture.height * scale];
+  const top = (height - h) / 2;
+  const left = (width - across * scale - gap) / 2;
+  context.imageSmoothingQuality = "medium";
+  const eye = (which: number, x: number) =>
+    context.drawImage(picture, which * half, 0, half, picture.height, x, top, w, h);
+  if (wiggle) {
+    eye(second ? 1 : 0, left);
+  } else {
+    eye(0, left);
+    eye(1, left + w + gap);
+  }
 }

@@ -96,7 +96,9 @@ function control({ key, label, choices, range, percent, also }: Setting): HTMLEl
     const output = make("output", { for: id });
     const tell = () => {
       const value = Number(slider.value);
-      output.textContent = percent ? `${number(100 * value, 3)}\u00a0%` : number(value, 2);
+      output.textContent = percent
+        ? `${Number((100 * value).toFixed(2))}\u00a0%`
+        : number(value, 2);
       slider.setAttribute("aria-valuetext", output.textContent);
     };
     slider.value = String(present);

@@ -22,7 +22,7 @@ export interface Lamp {
 }
 
 /** The disc's radius as a share of the shorter side. */
-const DISC = 0.42;
+const DISC = 0.46;
 /** Least z: light from the very side shows nothing. */
 const LEAST = 0.12;
 /** What an arrow key moves, as a share of the disc. */

@@ -145,7 +145,7 @@ export class Scenery {
     const ghost = new MeshBasicMaterial({
       side: DoubleSide,
       transparent: true,
-      opacity: GHOST,
+      opacity: surface === "wireframe" ? GHOST / 2 : GHOST,
       depthWrite: false,
       visible: ghosts,
       wireframe: surface === "wireframe",
