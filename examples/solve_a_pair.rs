@@ -4,7 +4,8 @@
 
 use std::error::Error;
 
-use relievo::{Camera, Frame, FramePair, Options, Solver, Status, init};
+use relievo::solver::find_curves;
+use relievo::{Camera, Frame, FramePair, Options, Solver, Status};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -18,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let camera = Camera::centred(focal.parse()?, pair.width(), pair.height())?;
 
     // A curve roughly on each moving thing; who knows better draws them.
-    let curves = init::find_curves(&pair, &camera);
+    let curves = find_curves(&pair, &camera);
     let mut solver = Solver::new(pair, camera, &curves, Options::default())?;
     while solver.step() == Status::Running {}
 

@@ -81,6 +81,7 @@ mod linalg;
 mod motion_model;
 pub mod options;
 pub mod paper;
+pub mod probe;
 #[cfg(feature = "scenes")]
 pub mod scene;
 pub mod score;

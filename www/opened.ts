@@ -37,11 +37,12 @@ export function adopt(
     report: found?.report ?? null,
     contours: found?.contours ?? [],
     // A recording has its last picture already.
-    ...(playing && found ? { pictures, pictured } : { pictures: [], pictured: "" }),
+    ...(playing && found ? { pictures, pictured } : { pictures: [], pictured: "", legends: [] }),
     scores: null,
     held: null,
     heldFound: null,
     scales: [],
+    ranges: { span: null, speed: null },
     showing: "first",
     tool: "select",
     playing: false,

@@ -50,9 +50,9 @@ const client = new Client("solver", {
 
 /** Draws while the solver is in a pass: it knows what the pass before came to. */
 const viewer = new Viewer((progress) => {
-  const { pictures, view, mesh } = progress;
+  const { pictures, legends, view, mesh } = progress;
   for (const old of store.state.pictures) old?.close();
-  store.update({ pictures, pictured: view });
+  store.update({ pictures, legends, pictured: view });
   if (mesh) meshListener(mesh);
 });
 
@@ -388,6 +388,9 @@ async function show(progress: Progress): Promise<void> {
     contours: progress.contours,
     pictures,
     pictured: progress.view,
+    legends: progress.legends.map((legend, i) =>
+      progress.pictures[i] ? legend : (state.legends[i] ?? null),
+    ),
     scores: progress.scores,
   });
   if (progress.mesh) meshListener(progress.mesh);

@@ -12,6 +12,7 @@ import type {
   Contour,
   Found,
   FrameFile,
+  Legend,
   OptionValues,
   Report,
   ScoreTable,
@@ -78,6 +79,22 @@ export interface ViewParams {
   curvesOnTop: boolean;
 }
 
+/** Two views with a divider between them; the sides are of `stage/sides.ts`. */
+export interface Split {
+  left: string;
+  right: string;
+  /** Where the divider is, 0 left to 1 right. */
+  at: number;
+}
+
+/** Ranges of colours that are held whatever is found; `null` where the core chooses. */
+export interface Ranges {
+  /** Least and greatest 1/Z. */
+  span: [number, number] | null;
+  /** Pixels per frame at full colour. */
+  speed: number | null;
+}
+
 export interface State {
   /** What the core offers; `null` until it has loaded. */
   catalogues: Catalogues | null;
@@ -130,6 +147,8 @@ export interface State {
   /** Pictures, and the name of what they show (`views.ts`): it may lag behind what was chosen. */
   pictures: (ImageBitmap | null)[];
   pictured: string;
+  /** What the colours of the pictures stand for; `null` where they are no measure. */
+  legends: (Legend | null)[];
   scores: ScoreTable | null;
   /** The result as it was last put away, and what that came to. */
   held: Held | null;
@@ -140,7 +159,11 @@ export interface State {
   tool: Tool;
   view: string;
   viewParams: ViewParams;
+  split: Split | null;
+  ranges: Ranges;
   showing: Showing;
+  /** The address of the step of a lesson that is open. */
+  lessonStep: string | null;
   /** A sentence for the message bar. */
   message: string | null;
 }
@@ -212,6 +235,7 @@ export const store = new Store({
   contours: [],
   pictures: [],
   pictured: "",
+  legends: [],
   scores: null,
   held: null,
   heldFound: null,
@@ -232,6 +256,9 @@ export const store = new Store({
     compare: "flow",
     curvesOnTop: true,
   },
+  split: null,
+  ranges: { span: null, speed: null },
   showing: "first",
+  lessonStep: null,
   message: null,
 });

@@ -3,6 +3,7 @@
  */
 
 import { byId } from "./dom";
+import { sidesAsk } from "./stage/sides";
 import { store, type State, type ViewParams } from "./store";
 import type { Choice, Wanted, Whose } from "./worker/protocol";
 
@@ -33,13 +34,35 @@ export interface View {
   curves?: boolean;
 }
 
+/** What stands in the row of views: one view, or several that belong together. */
+export interface Group {
+  id: string;
+  label: string;
+  views: string[];
+}
+
+export const GROUPS: Group[] = [
+  { id: "curves", label: "Outlines", views: ["curves"] },
+  { id: "depth", label: "Depth", views: ["depth"] },
+  { id: "motion", label: "Motion", views: ["motion"] },
+  { id: "space", label: "3-D", views: ["relief", "anaglyph"] },
+  {
+    id: "diagnostics",
+    label: "Diagnostics",
+    views: ["labels", "confidence", "occlusion", "compare"],
+  },
+];
+
+export const groupOf = (view: string): Group =>
+  GROUPS.find(({ views }) => views.includes(view)) ?? GROUPS[0]!;
+
 const NONE = () => [];
 const ON_TOP: Setting = { key: "curvesOnTop", label: "Curves on top" };
 
 export const VIEWS: View[] = [
   {
     id: "curves",
-    label: "Curves",
+    label: "Outlines",
     hint: "The frame with its curves. Draw, move and resize them here.",
     kinds: NONE,
     settings: NONE,
@@ -193,13 +216,16 @@ export function wantedParams({
   viewParams,
   scales,
   width,
+  ranges,
 }: Readonly<State>): Record<string, unknown> {
   const { palette, glasses, baseline, swap, presentation } = viewParams;
   const convergence = viewParams.converge ? null : viewParams.convergence;
   const layout = ["anaglyph", "wiggle"].includes(presentation) ? "parallel" : presentation;
   // Arrows are lines: on a small frame they need finer pixels than the frame's.
   const magnify = width > 0 && width <= FINE_WIDTH ? 2 : 1;
-  return { scales, palette, glasses, baseline, convergence, swap, layout, magnify };
+  // The page draws a legend of its own, with numbers.
+  const own = { scales, palette, glasses, baseline, convergence, swap, layout, magnify };
+  return { ...own, legend: false, ...ranges };
 }
 
 /** What the worker should send for what is shown. */
@@ -211,7 +237,7 @@ export function wantedBy(state: Readonly<State>): Omit<Wanted, "id"> {
       of,
       kind,
       params,
-      compared: state.view === "compare",
+      compared: comparing(state),
     })),
     longest: screenSide(),
     mesh: state.view === "relief" ? { ...params, step: stepOf(state) } : null,
@@ -230,8 +256,14 @@ function screenSide(): number {
   return Math.max(512, 256 * Math.ceil(side / 256));
 }
 
+/** Whether what is found must have the truth's colours. */
+export const comparing = (state: Readonly<State>): boolean =>
+  state.view === "compare" || (state.truth && asks(state).some(([of]) => of !== "found"));
+
 /** Whose pictures of which kind are on the stage, in order. */
-export function asks({ view, viewParams }: Readonly<State>): [Whose, string][] {
+export function asks(state: Readonly<State>): [Whose, string][] {
+  if (state.split) return sidesAsk(state);
+  const { view, viewParams } = state;
   const { kinds } = viewOf(view);
   return kinds(viewParams).flatMap((kind) =>
     view === "compare"
@@ -251,7 +283,8 @@ const NAMES: Record<Whose, string> = {
 };
 
 /** A name for what is shown: the view, and the kinds of its pictures where they can be chosen. */
-export function nameOf({ view, viewParams }: Readonly<State>): string {
+export function nameOf({ view, viewParams, split }: Readonly<State>): string {
+  if (split) return [view, split.left, split.right].join(" ");
   return [view, ...viewOf(view).kinds(viewParams)].join(" ");
 }
 
@@ -259,10 +292,11 @@ export function nameOf({ view, viewParams }: Readonly<State>): string {
 export function awaited(state: Readonly<State>): boolean {
   const { source, view, pictured } = state;
   // Curves lie on the frame itself, which is there.
-  return source !== null && view !== "curves" && pictured !== nameOf(state);
+  const there = state.split ? asks(state).length === 0 : view === "curves";
+  return source !== null && !there && pictured !== nameOf(state);
 }
 
 /** A name above each picture, where there are several. */
 export function captionsOf(state: Readonly<State>): string[] {
-  return state.view === "compare" ? asks(state).map(([of]) => NAMES[of]) : [];
+  return state.view === "compare" && !state.split ? asks(state).map(([of]) => NAMES[of]) : [];
 }

@@ -23,7 +23,7 @@ NAME          only these: blocks, carousel-1003, …
 --passing     variants that stand still and are filmed in passing, with no curve drawn; nothing built in
 --mild        variants with a background of little relief before a camera that shifts and turns; nothing built in
 --tsv FILE    write name, preset, AEE and labels wrong as well
---data DIR    solve the recorded sequences in DIR as well
+--data DIR    the recorded sequences in DIR instead, from curves found and drawn, beside TV-L1 and DIS
 --levers      what each option of `best` is worth and costs: it is switched off alone, and left on alone
 --starts      how much the result depends on where the circles are drawn
 --auto        which curves are found where nobody draws any, and where `best` ends from them

@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use relievo::init::find_curves;
 use relievo::options::{Options, Preset};
 use relievo::scene::Sequence;
+use relievo::solver::find_curves;
 use relievo::{FramePair, Shape};
 
 use crate::Failure;

@@ -69,7 +69,9 @@ fn run(asked: &Asked) -> Result<(), Failure> {
         }
         Work::Starts => starts::print(&cases, &asked.presets)?,
         Work::Figures => {
-            if !cases.is_empty() {
+            // Recorded sequences alone, unless others are named.
+            let own = asked.data.is_none() || !asked.names.is_empty();
+            if own && !cases.is_empty() {
                 figures::print(&cases, asked)?;
             }
             if let Some(folder) = &asked.data {

@@ -2,9 +2,7 @@
 
 use relievo::MotionModel;
 use relievo::score::{Scores, compare};
-use relievo::{
-    Camera, Frame, FramePair, Interpretation, Options, RigidMotion, Shape, Solver, Status,
-};
+use relievo::{Camera, Frame, FramePair, Interpretation, Options, Shape, Solver, Status};
 
 use crate::Failure;
 
@@ -29,14 +27,10 @@ pub struct Figures {
 pub struct Region {
     /// Its true share of the frame.
     pub share: f64,
-    /// The share found.
-    pub found_share: f64,
     /// What its motion truly is, as far as that shows.
     pub truly: MotionModel,
     /// What its motion was found to be.
     pub kind: MotionModel,
-    /// The motion found.
-    pub motion: RigidMotion,
     /// Where T truly shows, how it compares.
     pub heading: Option<Heading>,
     /// Error of the rotation in degrees.
@@ -73,10 +67,8 @@ impl Figures {
                 .collect();
             Region {
                 share,
-                found_share: reported.map_or(0.0, |r| r.share),
                 truly,
                 kind: reported.map_or(MotionModel::Still, |r| r.model),
-                motion: found.motions.get(k).copied().unwrap_or_default(),
                 heading: translates.then(|| match scores.translation_angle[k] {
                     Some(angle) => Heading::Off(angle),
                     None => Heading::Missed,

@@ -2,7 +2,7 @@
 //! files are, what camera took it, and what is known of it.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use relievo::file::{flo, pfm, png};
 use relievo::init::focal_length;
@@ -22,6 +22,8 @@ pub struct Recorded {
     /// The frame's middle where none is given.
     centre: Option<[f64; 2]>,
     curve: Curve,
+    /// How many things move by themselves.
+    pub bodies: usize,
     flow: Option<&'static str>,
     depth: Option<&'static str>,
     labels: Option<&'static str>,
@@ -66,6 +68,7 @@ pub static RECORDED: [Recorded; 12] = [
     Recorded {
         centre: Some([225.0, 225.0]),
         curve: Curve::Labelled,
+        bodies: 1,
         flow: Some("flow0.flo"),
         depth: Some("depth0.pfm"),
         labels: Some("labels0.png"),
@@ -93,6 +96,7 @@ pub static RECORDED: [Recorded; 12] = [
     Recorded {
         frames: ["frame00.png", "frame01.png"],
         curve: Curve::Circle([126.0, 150.0, 48.0]),
+        bodies: 1,
         ..plain("rubic", 300.0)
     },
     Recorded {
@@ -120,14 +124,16 @@ pub static RECORDED: [Recorded; 12] = [
         frames: ["frame09.png", "frame13.png"],
         ..plain("cokecan", 300.0)
     },
-    // Several things move by themselves.
+    // Things that move by themselves: six; a girl whose camera follows her.
     Recorded {
         frames: ["frame10.png", "frame11.png"],
+        bodies: 6,
         flow: Some("flow10.flo"),
         ..plain("rubberwhale", 584.0)
     },
     Recorded {
         frames: ["frame02.png", "frame03.png"],
+        bodies: 1,
         flow: Some("flow02.flo"),
         ..plain("alley", 410.0)
     },
@@ -142,6 +148,7 @@ const fn plain(name: &'static str, focal: f64) -> Recorded {
         find: false,
         centre: None,
         curve: Curve::None,
+        bodies: 0,
         flow: None,
         depth: None,
         labels: None,
@@ -150,6 +157,13 @@ const fn plain(name: &'static str, focal: f64) -> Recorded {
 }
 
 impl Recorded {
+    /// The files of both frames and of the true flow, where that is known.
+    pub fn files(&self, data: &Path) -> Option<[PathBuf; 3]> {
+        let [first, second] = self.frames;
+        let file = |name: &str| data.join(self.folder).join(name);
+        self.flow.map(|flow| [first, second, flow].map(file))
+    }
+
     /// Reads it from its folder inside `data`.
     pub fn read(&self, data: &Path) -> Result<Reading, Failure> {
         let file = |name: &str| {

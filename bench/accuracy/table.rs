@@ -52,7 +52,8 @@ pub fn true_kinds(figures: &Figures) -> String {
     figures.regions.iter().map(|r| letter(r.truly)).collect()
 }
 
-fn letter(kind: MotionModel) -> char {
+/// A motion model as a letter.
+pub fn letter(kind: MotionModel) -> char {
     match kind {
         MotionModel::Still => 'S',
         MotionModel::Rotation => 'R',

@@ -2,6 +2,7 @@
 
 use arbitrary::{Result, Unstructured};
 use relievo::options::{Diffusion, Preset};
+use relievo::solver::find_curves;
 use relievo::view::{self, ViewParams};
 use relievo::{Camera, Frame, FramePair, Grid, Options, Solver, Status, init};
 
@@ -30,7 +31,7 @@ fn film(u: &mut Unstructured) -> Result<()> {
         return Ok(());
     };
     if u.ratio(1, 8)? {
-        for shape in init::find_curves(&pair, &camera) {
+        for shape in find_curves(&pair, &camera) {
             shape.level_set(width, height, 0).unwrap();
         }
         if let Some(found) = init::focal_length(&pair, &camera) {

@@ -32,4 +32,4 @@ pub use lighting::Lighting;
 pub use note::Note;
 pub use pyramid::{halved, halved_camera};
 pub(crate) use shrink::shrunk_camera;
-pub(crate) use spline::Spline;
+pub(crate) use spline::{LANES, Spline};

@@ -12,6 +12,8 @@ use wide::f32x4;
 
 use crate::grid::Grid;
 
+/// Places that are read together.
+pub(crate) const LANES: usize = 4;
 /// Pixels by which the spline goes on beyond the picture.
 const PAD: usize = 3;
 /// The pole of the recursive filter, √3 − 2.
@@ -81,6 +83,50 @@ impl Spline {
         [sum * bx, sum * dx, down * bx].map(f32x4::reduce_add)
     }
 
+    /// The values at four places, which are taken to the nearest place that is at most a pixel outside of the picture.
+    #[inline(always)]
+    pub fn at_four(&self, x: [f32; LANES], y: [f32; LANES]) -> [f32; LANES] {
+        let ([xi, yi], [tx, ty]) = self.cells(x, y);
+        let by = basis_of_four(ty);
+        let sums = self.sums(xi, yi, by.map(f32x4::to_array));
+        across(sums, basis_of_four(tx)).to_array()
+    }
+
+    /// The values there and the derivatives by x and by y.
+    #[inline(always)]
+    pub fn four_with_gradient(&self, x: [f32; LANES], y: [f32; LANES]) -> [[f32; LANES]; 3] {
+        let ([xi, yi], [tx, ty]) = self.cells(x, y);
+        let (by, dy) = (basis_of_four(ty), slope_of_four(ty));
+        let [sums, down] = [by, dy].map(|b| self.sums(xi, yi, b.map(f32x4::to_array)));
+        let (bx, dx) = (basis_of_four(tx), slope_of_four(tx));
+        [across(sums, bx), across(sums, dx), across(down, bx)].map(f32x4::to_array)
+    }
+
+    /// [`cell`] of four places.
+    #[inline(always)]
+    fn cells(&self, x: [f32; LANES], y: [f32; LANES]) -> ([[usize; LANES]; 2], [f32x4; 2]) {
+        let c = &self.coefficients;
+        let cells = |at: [f32; LANES], side: usize| {
+            let last = f32x4::splat((side - 2 * PAD) as f32);
+            let at = f32x4::new(at).max(-f32x4::ONE).min(last) + f32x4::splat(PAD as f32);
+            let cell = at.fast_trunc_int();
+            let first = cell.to_array().map(|i| i as usize - 1);
+            (first, at - f32x4::from_i32x4(cell))
+        };
+        let ((xi, tx), (yi, ty)) = (cells(x, c.width()), cells(y, c.height()));
+        ([xi, yi], [tx, ty])
+    }
+
+    /// For each of the four columns around four places, the rows' sum by weights, place by place.
+    #[inline(always)]
+    fn sums(&self, x: [usize; LANES], y: [usize; LANES], by: [[f32; LANES]; 4]) -> [f32x4; 4] {
+        let sum = |n: usize| {
+            let row = |j: usize| self.taps(x[n], y[n] + j) * f32x4::splat(by[j][n]);
+            (row(0) + row(1)) + (row(2) + row(3))
+        };
+        f32x4::transpose([sum(0), sum(1), sum(2), sum(3)])
+    }
+
     #[inline(always)]
     fn taps(&self, x: usize, y: usize) -> f32x4 {
         let at = y * self.coefficients.width() + x;
@@ -119,6 +165,39 @@ fn slope(t: f32) -> [f32; 4] {
         s * (2.0 - 1.5 * s),
         0.5 * t * t,
     ]
+}
+
+/// [`basis`] of four fractions.
+#[inline(always)]
+fn basis_of_four(t: f32x4) -> [f32x4; 4] {
+    let s = f32x4::ONE - t;
+    let sixth = f32x4::splat(1.0 / 6.0);
+    let (three, four, six) = (f32x4::splat(3.0), f32x4::splat(4.0), f32x4::splat(6.0));
+    [
+        s * s * s * sixth,
+        (four + t * t * (three * t - six)) * sixth,
+        (four + s * s * (three * s - six)) * sixth,
+        t * t * t * sixth,
+    ]
+}
+
+/// [`slope`] of four fractions.
+#[inline(always)]
+fn slope_of_four(t: f32x4) -> [f32x4; 4] {
+    let s = f32x4::ONE - t;
+    let (half, more, two) = (f32x4::HALF, f32x4::splat(1.5), f32x4::splat(2.0));
+    [
+        -half * s * s,
+        t * (more * t - two),
+        s * (two - more * s),
+        half * t * t,
+    ]
+}
+
+/// The columns' sum by weights.
+#[inline(always)]
+fn across(columns: [f32x4; 4], by: [f32x4; 4]) -> f32x4 {
+    (columns[0] * by[0] + columns[1] * by[1]) + (columns[2] * by[2] + columns[3] * by[3])
 }
 
 /// Powers of the pole that are not lost in rounding.

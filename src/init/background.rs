@@ -102,8 +102,7 @@ pub fn background(
 /// The matches of the segments that the background's motion explains mainly; `None` when it has no translation.
 pub fn scenery(samples: &[Sample], camera: &Camera, size: [usize; 2]) -> Option<Vec<Match>> {
     let lattice = Lattice::new(samples, size);
-    let everything = vec![true; samples.len()];
-    let whole = || segments(samples, &lattice, &everything);
+    let whole = || segments(samples, &lattice);
     let (motion, translates) = background(samples, whole, camera, size)?;
     let carrier = Carrier::new(&motion, camera);
     let segments = whole();

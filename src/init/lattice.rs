@@ -1,5 +1,7 @@
 //! Which match lies at which place of the 4-px lattice.
 
+use glam::DVec2;
+
 use super::block_search::SPACING;
 use super::sample::Sample;
 use crate::grid::Grid;
@@ -65,4 +67,10 @@ impl Lattice {
 pub fn place(sample: &Sample) -> (usize, usize) {
     let [x, y] = sample.matched.at;
     (x as usize / SPACING, y as usize / SPACING)
+}
+
+/// The middle of a frame of so many places, in pixels.
+pub fn centre(size: [usize; 2]) -> DVec2 {
+    let [x, y] = size.map(|n| (n * SPACING) as f64 / 2.0);
+    DVec2::new(x, y)
 }

@@ -1,5 +1,6 @@
 //! What is found of two frames before anything is known: sparse matches, and the rigid motion that explains most of them.
 
+mod affine;
 mod background;
 mod block_search;
 mod box_mean;
@@ -8,18 +9,19 @@ mod displacement;
 mod epipolar;
 mod focal;
 mod lattice;
-mod local_flow;
 mod lucas_kanade;
 mod matches;
 mod outline;
+mod patches;
 mod pieces;
 mod rotation;
 mod sample;
 mod segments;
 
 pub use box_mean::{box_mean, less_box_mean};
-pub use curves::find_curves;
+pub(crate) use curves::{Candidates, candidates};
 pub use displacement::{Displacement, Verdict, displacement};
 pub use epipolar::{EpipolarMotion, epipolar_motion};
 pub use focal::{FocalLength, focal_length};
 pub use matches::{Match, matches};
+pub(crate) use outline::outlines;

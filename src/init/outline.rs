@@ -17,20 +17,22 @@ const COMPACT: f64 = 0.2;
 const OFF: f64 = 0.005;
 
 /// A polygon in pixels of the frame.
-pub(super) struct Outline {
+pub(crate) struct Outline {
     /// Its corners, to a tenth of a pixel.
     pub corners: Vec<[f64; 2]>,
     /// Its area, as a share of the frame's.
     pub share: f64,
 }
 
-/// The outlines of where `field`, a number for each place of the lattice of a frame of size `small`, is above 0, in
-/// pixels of a `frame` of another size.
-pub(super) fn outlines(field: &Grid<f32>, small: [usize; 2], frame: [usize; 2]) -> Vec<Outline> {
+/// A number for each place of the lattice of a frame of so many columns and rows, at each pixel.
+pub(super) fn at_pixels(field: &Grid<f32>, [width, height]: [usize; 2]) -> Grid<f32> {
     let place = |at: usize| (at as f32 - (SPACING / 2) as f32) / SPACING as f32;
-    let level_set = Grid::from_fn(small[0], small[1], |x, y| {
-        field.bilinear(place(x), place(y))
-    });
+    Grid::from_fn(width, height, |x, y| field.bilinear(place(x), place(y)))
+}
+
+/// The outlines of where a number for each pixel is above 0, in pixels of a `frame` of another size.
+pub(crate) fn outlines(level_set: &Grid<f32>, frame: [usize; 2]) -> Vec<Outline> {
+    let small = [level_set.width(), level_set.height()];
     let grow = |value: f32, k: usize| {
         let factor = frame[k] as f64 / small[k] as f64;
         let at = (f64::from(value) + 0.5) * factor - 0.5;
@@ -39,7 +41,7 @@ pub(super) fn outlines(field: &Grid<f32>, small: [usize; 2], frame: [usize; 2]) 
     let [width, height] = frame;
     let whole = (width * height) as f64;
     let off = OFF * width.max(height) as f64;
-    contours(&level_set, 1)
+    contours(level_set, 1)
         .into_iter()
         .map(|contour| {
             let points: Vec<[f64; 2]> = contour

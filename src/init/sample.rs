@@ -20,6 +20,7 @@ use super::epipolar::Pair;
 use super::matches::{Match, matches};
 use crate::camera::{Camera, RigidMotion};
 use crate::frames::{FramePair, MIN_SIDE, halved, halved_camera, shrunk_camera};
+use crate::grid::Grid;
 use crate::options::Detail;
 use crate::working::factor;
 
@@ -57,6 +58,8 @@ pub struct Small {
     pub camera: Camera,
     /// Their width and height.
     pub size: [usize; 2],
+    /// The frames, grey levels.
+    pub frames: [Grid<f32>; 2],
 }
 
 /// The matches between the frames of `pair`.
@@ -74,6 +77,7 @@ pub fn small_samples(pair: &FramePair, camera: &Camera) -> Small {
         samples: samples.filter(Sample::finite).collect(),
         camera,
         size: [frames[0].width(), frames[0].height()],
+        frames,
     }
 }
 

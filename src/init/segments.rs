@@ -1,25 +1,35 @@
-//! The frame in segments of smooth flow.
+//! The frame in segments of continuous flow.
 //!
-//! 1. A match lies inside a segment when its flow continues that of four fifths of the matches around it. Matches
-//!    inside that lie side by side and continue each other are the core of a segment: cores are parted by seams, and a
-//!    seam that is open over a few places only does not join them.
-//! 2. The other matches join the core that they continue best, in rounds.
-//! 3. Two segments are one when their flow is continuous along more than half of the line on which they touch.
+//! Patches of affine flow ([`patches`]) are joined where the flow of one goes on in the other: along most of their common
+//! line the two flows, each found from the patch's own matches nearby, differ by no more than [`CONTINUOUS`] and
+//! [`CERTAIN`] times what they are known to.
+
+use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use super::lattice::Lattice;
-use super::local_flow::LocalFlow;
+use super::affine::Moments;
+use super::epipolar::median;
+use super::lattice::{Lattice, centre};
+use super::patches::patches;
 use super::sample::Sample;
 
-/// Flows that disagree by less, in pixels, continue each other.
-const CONTINUOUS: f64 = 0.3;
-/// The same for matches that join a core.
-const JOINING: f64 = 0.8;
-/// Share of the matches around that one inside continues.
-const INSIDE: f64 = 0.8;
-/// Fewest matches around it, of 24.
-const FEWEST: usize = 8;
+/// Flows that differ by less, in pixels, continue each other.
+const CONTINUOUS: f64 = 0.15;
+/// So do flows that differ by less than this many standard deviations.
+const CERTAIN: f64 = 2.0;
+/// But no more than this, in pixels.
+const DOUBT: f64 = 0.2;
+/// Fewest matches from which flow is found without those whose windows reach over the line.
+const INNER: usize = 6;
+/// Share of a line along which flow has to go on.
+const SHARE: f64 = 0.7;
+/// Patches of fewer matches join one neighbour only.
+const SMALL: usize = 64;
+/// Half of the window in which flow is found, in places of the lattice.
+const REACH: isize = 3;
+/// Matches that share one independent observation: windows of 9 px, 4 px apart.
+const SHARED: f64 = 5.0;
 /// Times that segments are compared.
 const MERGES: usize = 4;
 
@@ -56,79 +66,108 @@ impl Segments {
         let share = |[part, all]: [usize; 2]| part as f64 / all.max(1) as f64;
         counts.into_iter().map(share).collect()
     }
+
+    /// The median of `value` over each segment's matches.
+    pub fn medians(&self, value: &[f64]) -> Vec<f64> {
+        let mut each = vec![Vec::new(); self.count];
+        for (k, segment) in self.of.iter().enumerate() {
+            if let Some(s) = *segment {
+                each[s].push(value[k]);
+            }
+        }
+        each.into_iter().map(median).collect()
+    }
 }
 
-/// The segments of those `samples` that are `wanted`.
-pub fn segments(samples: &[Sample], lattice: &Lattice, wanted: &[bool]) -> Segments {
-    let flows: Vec<LocalFlow> = (0..samples.len())
-        .map(|k| LocalFlow::around(k, samples, lattice, wanted))
+/// The segments of `samples`.
+pub fn segments(samples: &[Sample], lattice: &Lattice) -> Segments {
+    let (mut of, count) = patches(samples, lattice);
+    let patch = of.clone();
+    let border: Vec<bool> = (0..samples.len())
+        .map(|k| lattice.around(&samples[k], 1).any(|o| patch[o] != patch[k]))
         .collect();
-    let flows = &flows[..];
-    let inside: Vec<bool> = (0..samples.len())
-        .map(|k| {
-            let (mut count, mut same) = (0, 0);
-            for other in lattice.around(&samples[k], 2).filter(|&o| wanted[o]) {
-                count += 1;
-                same += usize::from(flows[k].jump(&flows[other]) < CONTINUOUS);
-            }
-            wanted[k] && count >= FEWEST && same as f64 >= INSIDE * f64::from(count as u32)
-        })
-        .collect();
-    let mut of = vec![None; samples.len()];
-    let mut count = 0;
-    for first in 0..samples.len() {
-        if !inside[first] || of[first].is_some() {
-            continue;
-        }
-        let mut stack = vec![first];
-        of[first] = Some(count);
-        while let Some(k) = stack.pop() {
-            for other in lattice.around(&samples[k], 1) {
-                let joins = inside[other] && of[other].is_none();
-                if joins && flows[k].jump(&flows[other]) < CONTINUOUS {
-                    of[other] = Some(count);
-                    stack.push(other);
-                }
+    let middle = centre(lattice.size());
+    // Contacts of patches, each with whether flow goes on there.
+    let mut contacts = Vec::new();
+    for k in 0..samples.len() {
+        let Some(a) = patch[k] else { continue };
+        for other in lattice.around(&samples[k], 1).filter(|&other| other > k) {
+            if let Some(b) = patch[other].filter(|&b| b != a) {
+                let at = 0.5 * (samples[k].at() + samples[other].at());
+                let [(one, known), (two, sure)] =
+                    [k, other].map(|k| near(k, at, samples, lattice, (&patch, &border), middle));
+                let off = (one - two).length();
+                let limit = CONTINUOUS + (CERTAIN * (known + sure).sqrt()).min(DOUBT);
+                contacts.push((a, b, off < limit));
             }
         }
-        count += 1;
     }
-    grow(&mut of, samples, lattice, flows, wanted);
+    link_small(&mut of, count, &contacts);
     for _ in 0..MERGES {
-        if !merge(&mut of, count, samples, lattice, flows) {
+        if !merge(&mut of, count, &patch, &contacts) {
             break;
         }
     }
     by_size(of, count)
 }
 
-fn grow(
-    of: &mut [Option<usize>],
+/// The flow at `at` from the matches around match k that belong to its patch, and its variance, px².
+fn near(
+    k: usize,
+    at: DVec2,
     samples: &[Sample],
     lattice: &Lattice,
-    flows: &[LocalFlow],
-    wanted: &[bool],
-) {
-    loop {
-        let joins: Vec<(usize, usize)> = (0..of.len())
-            .filter(|&k| wanted[k] && of[k].is_none())
-            .filter_map(|k| {
-                let at = samples[k].at();
-                let d = samples[k].displacement();
-                let each = lattice.around(&samples[k], 1).filter_map(|other| {
-                    let off = (flows[other].displacement(at) - d).length();
-                    of[other].filter(|_| off < JOINING).map(|s| (off, s))
-                });
-                let best = each.min_by(|a, b| a.0.total_cmp(&b.0))?;
-                Some((k, best.1))
-            })
-            .collect();
-        if joins.is_empty() {
-            return;
+    (patch, border): (&[Option<usize>], &[bool]),
+    middle: DVec2,
+) -> (DVec2, f64) {
+    let own = |borders: bool| {
+        let mut sum = Moments::default();
+        let alike = |o: &usize| patch[*o] == patch[k] && (borders || !border[*o]);
+        let all = lattice.around(&samples[k], REACH).chain([k]);
+        for other in all.filter(alike) {
+            sum = sum.with(&Moments::of(&samples[other], middle));
         }
-        for (k, segment) in joins {
-            of[k] = Some(segment);
+        sum
+    };
+    let mut sum = own(false);
+    if sum.count < INNER {
+        sum = own(true);
+    }
+    let flow = sum.fit();
+    (
+        flow.displacement(at, middle),
+        SHARED * sum.variance(at, middle),
+    )
+}
+
+/// Joins each small patch to the one neighbour that continues it best: those along an outline continue both sides.
+fn link_small(of: &mut [Option<usize>], count: usize, contacts: &[(usize, usize, bool)]) {
+    let mut sizes = vec![0usize; count];
+    of.iter().flatten().for_each(|&s| sizes[s] += 1);
+    let mut lines = BTreeMap::<(usize, usize), (u32, u32)>::new();
+    for &(a, b, same) in contacts {
+        for pair in [(a, b), (b, a)] {
+            let line = lines.entry(pair).or_default();
+            line.0 += 1;
+            line.1 += u32::from(same);
         }
+    }
+    let mut best = vec![(SHARE, 0, None); count];
+    for (&(a, b), &(all, same)) in &lines {
+        let share = f64::from(same) / f64::from(all);
+        if sizes[a] < SMALL && (share, same) > (best[a].0, best[a].1) {
+            best[a] = (share, same, Some(b));
+        }
+    }
+    let mut root: Vec<usize> = (0..count).collect();
+    for (a, (_, _, b)) in best.into_iter().enumerate() {
+        if let Some(b) = b {
+            let (a, b) = (find(&root, a), find(&root, b));
+            root[a.max(b)] = a.min(b);
+        }
+    }
+    for segment in of.iter_mut().flatten() {
+        *segment = find(&root, *segment);
     }
 }
 
@@ -136,28 +175,33 @@ fn grow(
 fn merge(
     of: &mut [Option<usize>],
     count: usize,
-    samples: &[Sample],
-    lattice: &Lattice,
-    flows: &[LocalFlow],
+    patch: &[Option<usize>],
+    contacts: &[(usize, usize, bool)],
 ) -> bool {
-    let mut contacts = std::collections::BTreeMap::<(usize, usize), (u32, u32, DVec2)>::new();
-    for k in 0..of.len() {
-        let Some(a) = of[k] else { continue };
-        for other in lattice.around(&samples[k], 1).filter(|&other| other > k) {
-            if let Some(b) = of[other].filter(|&b| b != a) {
-                let contact = contacts.entry((a.min(b), a.max(b))).or_default();
-                contact.0 += 1;
-                contact.1 += u32::from(flows[k].jump(&flows[other]) < CONTINUOUS);
-                let (low, high) = if a < b { (k, other) } else { (other, k) };
-                contact.2 += flows[low].difference(&flows[high]);
-            }
+    // Where the segment of each patch is.
+    let mut now: Vec<usize> = (0..count).collect();
+    for (p, s) in patch.iter().zip(of.iter()) {
+        if let (Some(p), Some(s)) = (*p, *s) {
+            now[p] = s;
+        }
+    }
+    let mut sizes = vec![0usize; count];
+    of.iter().flatten().for_each(|&s| sizes[s] += 1);
+    let mut lines = BTreeMap::<(usize, usize), (u32, u32)>::new();
+    for &(a, b, same) in contacts {
+        let (a, b) = (now[a], now[b]);
+        if a != b {
+            let line = lines.entry((a.min(b), a.max(b))).or_default();
+            line.0 += 1;
+            line.1 += u32::from(same);
         }
     }
     let mut root: Vec<usize> = (0..count).collect();
     let mut any = false;
-    for (&(a, b), &(all, same, sum)) in &contacts {
-        let mean = sum.length() / f64::from(all);
-        if 2 * same > all || (4 * same > all && mean < CONTINUOUS) {
+    for (&(a, b), &(all, same)) in &lines {
+        let least = 0.5 * (sizes[a].min(sizes[b]) as f64).sqrt();
+        let large = sizes[a].min(sizes[b]) >= SMALL;
+        if large && f64::from(same) > (SHARE * f64::from(all)).max(least) {
             let (a, b) = (find(&root, a), find(&root, b));
             if a != b {
                 root[a.max(b)] = a.min(b);

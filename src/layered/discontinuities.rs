@@ -1,12 +1,13 @@
 //! Stage 3: depth pixel by pixel, for regions whose depth has steps.
 //!
-//! A surface over control points cannot step. Where a region leaves many of its pixels unexplained ([`UNEXPLAINED`]),
-//! matches give its motion anew, a plane sweep its depth, and both are refined (`refine/`). They are taken if they cost less
-//! than [`GAIN`] of what the surface does, in the mean over the region. Often it was the motion that was wrong and not the
-//! surface: a surface through the depths found is estimated anew under the motion found, and stays unless depth pixel by
-//! pixel still costs less than [`GAIN`] of it, or the two are more than a pixel apart over much of the region ([`APART`]).
-//! Where the two are nowhere a pixel apart, there is no step. If that surface is no better than the one before, all stays
-//! as it was.
+//! A surface over control points cannot step. A region may want depth pixel by pixel where it leaves many of its pixels
+//! unexplained ([`UNEXPLAINED`]) and, if it is one of several, some of its matches lie elsewhere than its surface has them
+//! ([`MISPLACED`]). Then matches give its motion anew, a plane sweep its depth, and both are refined (`refine/`). They are
+//! taken if they cost less than [`GAIN`] of what the surface does, in the mean over the region. Often it was the motion that
+//! was wrong and not the surface: a surface through the depths found is estimated anew under the motion found, and stays
+//! unless depth pixel by pixel still costs less than [`GAIN`] of it, or the two are more than a pixel apart over much of the
+//! region ([`APART`]). Where the two are nowhere a pixel apart, there is no step. If that surface is no better than the one
+//! before, all stays as it was.
 
 use super::estimate::{State, Surface, most_cost};
 use super::label::saturation;
@@ -17,7 +18,7 @@ use super::stages::STIFFNESS;
 use crate::camera::RigidMotion;
 use crate::frames::blur;
 use crate::grid::Grid;
-use crate::init::{epipolar_motion, matches};
+use crate::init::{Match, epipolar_motion, matches};
 use crate::motion_model::MotionModel;
 use crate::options::Options;
 use crate::window::Window;
@@ -27,6 +28,8 @@ use crate::window::Window;
 const UNEXPLAINED: [f64; 2] = [0.01, 0.5];
 /// A region with fewer pixels than this has too few matches.
 const FEWEST: usize = 2000;
+/// Share of a region's matches that are more than a pixel from where a good surface has them.
+const MISPLACED: f64 = 0.01;
 /// What the mean cost must fall to, against the surface as it was and as it is under the motion found.
 const GAIN: [f64; 2] = [0.87, 0.8];
 /// Share of pixels from which on a surface that is more than a pixel off has lost its way.
@@ -75,6 +78,10 @@ impl Layered {
             let own: Vec<_> = (all.iter().copied())
                 .filter(|m| support[(m.at[0] as usize, m.at[1] as usize)])
                 .collect();
+            // Most steps of depth are at outlines: several regions have them in their labels.
+            if self.regions.len() > 1 && !self.misplaces(k, &own) {
+                continue;
+            }
             let found = epipolar_motion(&own, &camera).filter(|f| f.model == MotionModel::Full);
             let Some((found, range)) =
                 found.and_then(|f| match_range(&own, &f, &camera).map(|r| (f, r)))
@@ -89,6 +96,18 @@ impl Layered {
                 self.adopt(k, refined, [before, after], options);
             }
         }
+    }
+
+    /// Whether some of the matches of region k are far from where its surface has them.
+    fn misplaces(&self, k: usize, matches: &[Match]) -> bool {
+        let state = &self.regions[k].state;
+        let view = state.view(&self.scales[0].camera);
+        let far = |m: &&Match| {
+            let [x, y] = m.at;
+            let [to_x, to_y] = view.target(x as usize, y as usize, state.surface.at(x, y));
+            (to_x - m.to[0]).hypot(to_y - m.to[1]) > 1.0
+        };
+        matches.iter().filter(far).count() as f64 > MISPLACED * matches.len() as f64
     }
 
     /// Takes the motion of `refined` with a surface or with depth pixel by pixel, if that costs less; costs are those of

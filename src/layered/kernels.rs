@@ -14,7 +14,7 @@ use super::refine::{aggregate, census, volume};
 use super::region::Region;
 use super::scale::Scale;
 use crate::camera::Camera;
-use crate::frames::blur;
+use crate::frames::{LANES, blur};
 use crate::grid::Grid;
 use crate::linalg::Banded;
 use crate::options::Diffusion;
@@ -62,9 +62,9 @@ pub(crate) fn enter(
         72.0,
         Box::new(move || {
             for y in 0..height {
-                let row = out.row_mut(y);
-                for (x, out) in row.iter_mut().enumerate() {
-                    *out = own.second.at(x as f32 + 0.3, y as f32 + 0.4);
+                for (start, out) in out.row_mut(y).chunks_exact_mut(LANES).enumerate() {
+                    let x = std::array::from_fn(|n| (LANES * start + n) as f32 + 0.3);
+                    out.copy_from_slice(&own.second.at_four(x, [y as f32 + 0.4; LANES]));
                 }
             }
             black_box(out.data());
@@ -95,7 +95,7 @@ pub(crate) fn enter(
     );
 
     let mut band = Banded::default();
-    let mut right = vec![[1.0f32; 6]; nodes];
+    let mut right = vec![[1.0f32; 8]; nodes];
     let (n, b) = (nodes as f64, bandwidth as f64);
     let pixels = (width * height) as f64;
     let flops = n * b * (b + 24.0) / pixels;
@@ -110,7 +110,7 @@ pub(crate) fn enter(
                 band.add(i, i.saturating_sub(bandwidth), 1.0);
             }
             band.factorise();
-            right.fill([1.0; 6]);
+            right.fill([1.0; 8]);
             band.solve(&mut right);
             black_box(&right);
         }),

@@ -21,6 +21,7 @@ mod estimate;
 #[cfg(all(target_arch = "wasm32", feature = "bench"))]
 pub(crate) mod kernels;
 mod label;
+mod merge;
 mod models;
 mod refine;
 mod region;

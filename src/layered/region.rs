@@ -27,6 +27,8 @@ pub(super) struct Region {
     pub reach: Option<Window>,
     /// ρ pixel by pixel at the frame's size, where depth has steps.
     pub dense: Option<Grid<f32>>,
+    /// The region with which one motion explains it as well.
+    pub part_of: Option<usize>,
     /// Whether it hides a part of the background.
     pub hides: bool,
 }
@@ -46,6 +48,7 @@ impl Region {
             window: None,
             reach: None,
             dense: None,
+            part_of: None,
             hides: false,
         }
     }

@@ -23,7 +23,7 @@ use crate::energy::Energy;
 use crate::frames::{FramePair, Lighting};
 use crate::grid::Grid;
 use crate::options::Options;
-use crate::solver::{Next, Weights};
+use crate::solver::{Approach, Next, Weights};
 use crate::window::Window;
 
 /// Planar rounds at most.
@@ -125,6 +125,30 @@ impl Layered {
         };
         layered.place(&level_sets);
         layered
+    }
+
+    /// Level sets after the first scale's search, begun from others, merged where one motion explains as well.
+    pub fn first_scale(
+        pair: Rc<FramePair>,
+        camera: Camera,
+        level_sets: Vec<Grid<f32>>,
+        options: &Options,
+    ) -> Vec<Grid<f32>> {
+        let mut layered = Self::new(pair, camera, level_sets, options);
+        loop {
+            let before = layered.labels.clone();
+            layered.find_motions(options);
+            layered.find_depth(options);
+            layered.move_curves(options);
+            let pairs = before.data().iter().zip(layered.labels.data());
+            let changed = pairs.filter(|(a, b)| a != b).count() as f64 / before.len() as f64;
+            if layered.phase == Phase::Search {
+                layered.merge_regions(options);
+                break;
+            }
+            layered.end_pass(changed, false, options);
+        }
+        layered.level_sets()
     }
 
     /// Begins at the first scale with these curves.
@@ -233,7 +257,10 @@ impl Layered {
                 (Phase::Planar(done + 1), next)
             }
             Phase::Planar(_) => (Phase::Search, Next::Another),
-            Phase::Search => (Phase::Rigid(0), Next::Another),
+            Phase::Search => {
+                self.note_parts(options);
+                (Phase::Rigid(0), Next::Another)
+            }
             Phase::Rigid(done) => {
                 let [least, most] = if self.warm { [1, 2] } else { PASSES };
                 let enough = done + 1 >= least && (still || alone);

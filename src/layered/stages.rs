@@ -17,6 +17,8 @@ use crate::window::Window;
 pub(super) const STIFFNESS: [f64; 2] = [1e5, 1e6];
 /// Gauss–Newton steps of motion with depth, and of depth alone.
 const STEPS: usize = 2;
+/// A region with more pixels than this shows which motion it has on the next coarser scale.
+const LARGE: usize = 16000;
 /// λ in units of the largest cost of a pixel, per pixel of length: while regions are planes, and from then on.
 const LENGTH: [f32; 2] = [0.2, 1.5];
 /// How far labels move while regions are planes, on coarse scales, and on the finest.
@@ -140,15 +142,16 @@ impl Layered {
     /// Compares the motion models that are left.
     pub(super) fn select_models(&mut self, options: &Options) {
         let prior = self.prior(STIFFNESS[0], self.sigma, options);
-        for (k, region) in self.regions.iter_mut().enumerate() {
-            let alternatives = std::mem::take(&mut region.alternatives);
-            let Some(window) = region.window else {
+        for k in 0..self.regions.len() {
+            let Some((up, labels, window)) = self.scale_for(k, LARGE) else {
                 continue;
             };
+            let region = &mut self.regions[k];
+            let alternatives = std::mem::take(&mut region.alternatives);
             let problem = Problem {
-                scale: &self.scales[self.level],
-                level: self.level,
-                support: Support::of(&self.labels, k, window),
+                scale: &self.scales[self.level + up],
+                level: self.level + up,
+                support: Support::of(&labels, k, window),
                 prior,
                 sigma: self.sigma,
             };

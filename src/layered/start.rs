@@ -76,10 +76,7 @@ impl Layered {
             let sigma = flow.sigma.max(LEAST_SIGMA);
             let support = Support::of(&self.labels, k, window);
             let blocks = Blocks::gather(self.here(), &support, &flow);
-            let owned = self.labels.data().iter().filter(|&&l| usize::from(l) == k);
-            let up = usize::from(owned.count() > LARGE && self.level + 1 < self.scales.len());
-            let labels = coarsened(&self.labels, up);
-            let Some(coarse) = around(&labels, k) else {
+            let Some((up, labels, coarse)) = self.scale_for(k, LARGE) else {
                 continue;
             };
             let flat = Surface::flat(2 * self.spacing(), &self.reach_of(k, window));
@@ -107,6 +104,18 @@ impl Layered {
         self.fit_surfaces();
         self.measure_sigma(options);
         self.estimate(options);
+    }
+}
+
+impl Layered {
+    /// On which scale region k shows its motion: the one at work, 0, or the next coarser one, 1, if it has more than `large`
+    /// pixels; the labels there, and the region's window.
+    pub(super) fn scale_for(&self, k: usize, large: usize) -> Option<(usize, Grid<u8>, Window)> {
+        let owned = self.labels.data().iter().filter(|&&l| usize::from(l) == k);
+        let up = usize::from(owned.count() > large && self.level + 1 < self.scales.len());
+        let labels = coarsened(&self.labels, up);
+        let window = around(&labels, k)?;
+        Some((up, labels, window))
     }
 }
 

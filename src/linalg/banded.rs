@@ -4,18 +4,23 @@
 //! A = L Lᵀ,   a_ij = 0 where |i − j| > bandwidth
 //! ```
 //!
-//! in n · bandwidth² operations. Each row is stored from its first entry to its diagonal, so that the inner loop is a
-//! dot product of two runs of memory.
+//! in n · bandwidth² operations. Columns of the lower half are stored one after the other, each from its diagonal down,
+//! with zeros behind it, so that four earlier columns are taken from a later one in runs of eight.
 
 use wide::f32x8;
+
+/// Columns that are taken from a later one together.
+const TOGETHER: usize = 4;
+/// Numbers that are worked on together.
+const LANES: usize = 8;
 
 /// A symmetric matrix of which the lower band is kept, then its factor.
 #[derive(Clone, Default)]
 pub(crate) struct Banded {
     size: usize,
     bandwidth: usize,
-    /// Row i holds columns i − bandwidth to i.
-    rows: Vec<f32>,
+    /// Column j holds rows j to j + bandwidth, then zeros.
+    columns: Vec<f32>,
 }
 
 impl Banded {
@@ -23,96 +28,105 @@ impl Banded {
     pub fn clear(&mut self, size: usize, bandwidth: usize) {
         self.size = size;
         self.bandwidth = bandwidth;
-        self.rows.clear();
-        self.rows.resize(size * (bandwidth + 1), 0.0);
+        self.columns.clear();
+        self.columns.resize(size * self.stride(), 0.0);
+    }
+
+    fn stride(&self) -> usize {
+        self.bandwidth + TOGETHER + LANES
     }
 
     /// Adds to a_ij, and so to a_ji; |i − j| must not exceed the bandwidth.
     #[inline]
     pub fn add(&mut self, i: usize, j: usize, value: f32) {
         let (low, high) = (i.max(j), i.min(j));
-        self.rows[low * (self.bandwidth + 1) + self.bandwidth - (low - high)] += value;
+        let at = high * self.stride() + low - high;
+        self.columns[at] += value;
     }
 
     /// Adds to a diagonal entry a share of itself and a constant.
     pub fn stiffen(&mut self, i: usize, share: f32, constant: f32) {
-        let at = i * (self.bandwidth + 1) + self.bandwidth;
-        self.rows[at] += share * self.rows[at] + constant;
+        let at = i * self.stride();
+        self.columns[at] += share * self.columns[at] + constant;
     }
 
     /// Replaces the matrix by its factor L, whose diagonal is kept inverted. A pivot that rounding has made
     /// negative is taken for a tiny one.
     pub fn factorise(&mut self) {
-        let (bandwidth, stride) = (self.bandwidth, self.bandwidth + 1);
-        for r in 0..self.size {
-            let first = r.saturating_sub(bandwidth);
-            let (above, row) = self.rows.split_at_mut(r * stride);
-            let row = &mut row[..stride];
-            // Column c of row r stands at c + bandwidth − r.
-            for c in first..r {
-                let start = first.max(c.saturating_sub(bandwidth));
-                let other = &above[c * stride..(c + 1) * stride];
-                let sum = dot(
-                    &row[start + bandwidth - r..c + bandwidth - r],
-                    &other[start + bandwidth - c..bandwidth],
-                );
-                row[c + bandwidth - r] = (row[c + bandwidth - r] - sum) * other[bandwidth];
+        let (bandwidth, stride) = (self.bandwidth, self.stride());
+        for k in 0..self.size {
+            let (earlier, column) = self.columns.split_at_mut(k * stride);
+            let column = &mut column[..stride];
+            // Row i of column j stands at i − j.
+            let from = |j: usize| &earlier[j * stride + k - j..(j + 1) * stride];
+            let mut j = k.saturating_sub(bandwidth);
+            while j < k {
+                let count = (k - j).min(TOGETHER);
+                let rows = bandwidth + j + count - k;
+                if count == TOGETHER {
+                    take(
+                        column,
+                        [from(j), from(j + 1), from(j + 2), from(j + 3)],
+                        rows,
+                    );
+                } else {
+                    (j..k).for_each(|j| take(column, [from(j)], rows));
+                }
+                j += count;
             }
-            let own = &row[first + bandwidth - r..bandwidth];
-            let pivot = row[bandwidth] - dot(own, own);
-            row[bandwidth] = pivot.max(1e-12).sqrt().recip();
+            let inverse = column[0].max(1e-12).sqrt().recip();
+            column[0] = inverse;
+            let below = (self.size - 1 - k).min(bandwidth);
+            column[1..=below].iter_mut().for_each(|l| *l *= inverse);
         }
     }
 
-    /// Solves A X = B for N right-hand sides at once, in place; after [`Self::factorise`].
-    pub fn solve<const N: usize>(&self, b: &mut [[f32; N]]) {
-        let (bandwidth, stride) = (self.bandwidth, self.bandwidth + 1);
-        for r in 0..self.size {
-            let first = r.saturating_sub(bandwidth);
-            let row = &self.rows[r * stride..(r + 1) * stride];
-            let mut sum = [0.0f32; N];
-            for (l, x) in row[first + bandwidth - r..bandwidth]
-                .iter()
-                .zip(&b[first..r])
-            {
-                for n in 0..N {
-                    sum[n] += l * x[n];
-                }
-            }
-            for n in 0..N {
-                b[r][n] = (b[r][n] - sum[n]) * row[bandwidth];
+    /// Solves A X = B for eight right-hand sides at once, in place; after [`Self::factorise`].
+    pub fn solve(&self, b: &mut [[f32; LANES]]) {
+        let stride = self.stride();
+        let column = |j: usize| {
+            let below = (self.size - 1 - j).min(self.bandwidth);
+            let column = &self.columns[j * stride..=j * stride + below];
+            (f32x8::splat(column[0]), &column[1..])
+        };
+        for j in 0..self.size {
+            let (inverse, column) = column(j);
+            let (own, below) = b[j..].split_at_mut(1);
+            let x = f32x8::new(own[0]) * inverse;
+            own[0] = x.to_array();
+            for (l, b) in column.iter().zip(below) {
+                *b = (f32x8::new(*b) - f32x8::splat(*l) * x).to_array();
             }
         }
-        for r in (0..self.size).rev() {
-            let first = r.saturating_sub(bandwidth);
-            let row = &self.rows[r * stride..(r + 1) * stride];
-            let mut x = b[r];
-            for n in 0..N {
-                x[n] *= row[bandwidth];
+        for j in (0..self.size).rev() {
+            let (inverse, column) = column(j);
+            let (own, below) = b[j..].split_at_mut(1);
+            let mut x = f32x8::new(own[0]);
+            for (l, b) in column.iter().zip(below) {
+                x -= f32x8::splat(*l) * f32x8::new(*b);
             }
-            b[r] = x;
-            for (l, b) in row[first + bandwidth - r..bandwidth]
-                .iter()
-                .zip(&mut b[first..r])
-            {
-                for n in 0..N {
-                    b[n] -= l * x[n];
-                }
-            }
+            own[0] = (x * inverse).to_array();
         }
     }
 }
 
-/// Σ a b.
-pub fn dot(a: &[f32], b: &[f32]) -> f32 {
-    let (a8, a_rest) = a.as_chunks::<8>();
-    let (b8, b_rest) = b.as_chunks::<8>();
-    let mut sum = f32x8::ZERO;
-    for (a, b) in a8.iter().zip(b8) {
-        sum += f32x8::new(*a) * f32x8::new(*b);
+/// Takes from the first `rows` rows of a column what earlier ones hold there, each from that column's row on, times its
+/// own first entry. Behind the last row there are zeros, to which nothing is done.
+#[inline(always)]
+fn take<const M: usize>(column: &mut [f32], earlier: [&[f32]; M], rows: usize) {
+    let factors = earlier.map(|c| f32x8::splat(c[0]));
+    let runs = rows.div_ceil(LANES);
+    let earlier = earlier.map(|c| &c.as_chunks::<LANES>().0[..runs]);
+    for (n, eight) in column.as_chunks_mut::<LANES>().0[..runs]
+        .iter_mut()
+        .enumerate()
+    {
+        let mut left = f32x8::new(*eight);
+        for m in 0..M {
+            left -= factors[m] * f32x8::new(earlier[m][n]);
+        }
+        *eight = left.to_array();
     }
-    let rest: f32 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sum.reduce_add() + rest
 }
 
 #[cfg(test)]
@@ -121,7 +135,12 @@ mod tests {
 
     #[test]
     fn a_solution_solves() {
-        let (size, bandwidth) = (40, 11);
+        for (size, bandwidth) in [(40, 11), (40, 1), (37, 24), (9, 30), (3, 2)] {
+            solve(size, bandwidth);
+        }
+    }
+
+    fn solve(size: usize, bandwidth: usize) {
         let mut matrix = Banded::default();
         let entry = |i: usize, j: usize| {
             if i == j {
@@ -136,15 +155,13 @@ mod tests {
                 matrix.add(i, j, entry(i, j));
             }
         }
-        let truth = |i: usize| [(i as f32).sin(), 1.0 - 0.1 * i as f32];
-        let mut b: Vec<[f32; 2]> = (0..size)
+        let truth = |i: usize| std::array::from_fn::<f32, LANES, _>(|n| ((i + n * n) as f32).sin());
+        let mut b: Vec<[f32; LANES]> = (0..size)
             .map(|i| {
-                let mut sum = [0.0; 2];
-                for j in 0..size {
-                    if i.abs_diff(j) <= bandwidth {
-                        for n in 0..2 {
-                            sum[n] += entry(i.max(j), i.min(j)) * truth(j)[n];
-                        }
+                let mut sum = [0.0; LANES];
+                for j in (0..size).filter(|j| i.abs_diff(*j) <= bandwidth) {
+                    for n in 0..LANES {
+                        sum[n] += entry(i.max(j), i.min(j)) * truth(j)[n];
                     }
                 }
                 sum
@@ -153,8 +170,8 @@ mod tests {
         matrix.factorise();
         matrix.solve(&mut b);
         for (i, x) in b.iter().enumerate() {
-            for n in 0..2 {
-                assert!((x[n] - truth(i)[n]).abs() < 1e-4);
+            for n in 0..LANES {
+                assert!((x[n] - truth(i)[n]).abs() < 1e-4, "{size} {bandwidth}");
             }
         }
     }

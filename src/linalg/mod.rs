@@ -4,6 +4,6 @@ mod banded;
 mod cholesky;
 mod sphere;
 
-pub(crate) use banded::{Banded, dot};
+pub(crate) use banded::Banded;
 pub use cholesky::solve;
 pub(crate) use sphere::{hemisphere, tangents};

@@ -7,6 +7,11 @@ const BOTH: &[Preset] = Preset::ALL;
 const BEST: &[Preset] = &[Preset::Best];
 const PAPER: &[Preset] = &[Preset::Paper];
 
+const DATA: &str = "Data term ψ²";
+const SMOOTHNESS: &str = "Smoothness term μ g(‖∇Z‖)";
+const LENGTH: &str = "Length term λ ∮ds";
+const STOPPING: &str = "When to stop";
+
 const fn number(min: f64, max: f64, logarithmic: bool) -> Control {
     Control::Number {
         min,
@@ -37,6 +42,8 @@ pub fn catalogue() -> &'static [Descriptor] {
 static CATALOGUE: &[Descriptor] = &[
     Descriptor {
         key: "detail",
+        group: "Frames",
+        main: true,
         label: "Detail",
         meaning: "Size at which frames are worked on. What is found is brought back to their size along their edges; weights and energies are of the size worked on. A change starts the solve anew.",
         term: "frames",
@@ -65,6 +72,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "mu",
+        group: SMOOTHNESS,
+        main: true,
         label: "Smoothness μ",
         meaning: "How much smooth depth counts against fitting the frames.",
         term: "μ g(‖∇Z‖) in (7)",
@@ -74,6 +83,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "lambda",
+        group: LENGTH,
+        main: true,
         label: "Length λ",
         meaning: "What a pixel of curve costs. Larger values give shorter, smoother outlines.",
         term: "λ ∮ds in (7)",
@@ -83,6 +94,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "diffusion",
+        group: SMOOTHNESS,
+        main: true,
         label: "Diffusion",
         meaning: "The function that smooths depth: one keeps depth edges, the other blurs them.",
         term: "g in (7)",
@@ -103,6 +116,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "epsilon",
+        group: SMOOTHNESS,
+        main: false,
         label: "Edge scale ε",
         meaning: "Where (11) begins to treat a change of depth as an edge. Mean inverse depth of a region is 1.",
         term: "g(r/ε) in (7)",
@@ -112,6 +127,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "smoothing",
+        group: DATA,
+        main: true,
         label: "Smoothing",
         meaning: "Standard deviation of the Gaussian that smooths both frames first.",
         term: "ψ in (7)",
@@ -121,6 +138,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "lighting",
+        group: DATA,
+        main: false,
         label: "Brightness change",
         meaning: "Allow for a gain and an offset of brightness between the frames. A change starts the solve anew.",
         term: "ψ in (7)",
@@ -130,6 +149,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "model_selection",
+        group: DATA,
+        main: false,
         label: "Model selection",
         meaning: "Give each region the simplest of still, rotation, translation and full motion that explains it nearly as well as the best.",
         term: "step 1",
@@ -139,6 +160,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "occlusion",
+        group: DATA,
+        main: false,
         label: "Occlusion",
         meaning: "Charge a constant, not the residual, where a region in front covers the place that a pixel goes to.",
         term: "ξ in (17)",
@@ -148,6 +171,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "discontinuities",
+        group: SMOOTHNESS,
+        main: false,
         label: "Depth discontinuities",
         meaning: "At last, look for depth pixel by pixel in regions whose depth has steps.",
         term: "step 2",
@@ -157,6 +182,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "rotation_ridge",
+        group: DATA,
+        main: false,
         label: "Rotation ridge",
         meaning: "Pull of f·ω towards 0, which a small region cannot tell from translation; a share of the mean diagonal of the normal equations.",
         term: "step 1",
@@ -166,6 +193,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "depth_steps",
+        group: SMOOTHNESS,
+        main: false,
         label: "Depth steps",
         meaning: "Steps of (9) in a pass.",
         term: "step 2",
@@ -175,6 +204,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "curve_steps",
+        group: LENGTH,
+        main: false,
         label: "Curve steps",
         meaning: "Steps of (17) in a pass.",
         term: "step 3",
@@ -184,6 +215,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "max_passes",
+        group: STOPPING,
+        main: false,
         label: "Most passes",
         meaning: "The solver stops after so many passes even if curves still move.",
         term: "stopping",
@@ -193,6 +226,8 @@ static CATALOGUE: &[Descriptor] = &[
     },
     Descriptor {
         key: "tolerance",
+        group: STOPPING,
+        main: false,
         label: "Tolerance",
         meaning: "Share of pixels that may change region in a pass that still counts as standing still.",
         term: "stopping",

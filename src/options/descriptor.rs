@@ -68,6 +68,10 @@ pub struct Descriptor {
         tsify(type = "Exclude<keyof Options, \"preset\">")
     )]
     pub key: &'static str,
+    /// The heading that it stands under: a term of (7), the frames, or when to stop.
+    pub group: &'static str,
+    /// Whether it is one of the few to be shown first.
+    pub main: bool,
     /// Short name.
     pub label: &'static str,
     /// What it does, in a sentence.

@@ -264,6 +264,7 @@ impl Approach for Paper {
             motion,
             model: MotionModel::seen(&self.camera, &motion),
             ambiguous: false,
+            part_of: None,
             in_front_of: Vec::new(),
         };
         self.motions.iter().map(state).collect()

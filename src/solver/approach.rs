@@ -33,6 +33,8 @@ pub(crate) struct RegionState {
     pub model: MotionModel,
     /// Whether another motion explains the region as well.
     pub ambiguous: bool,
+    /// The region with which one motion explains it as well.
+    pub part_of: Option<usize>,
     /// Labels of the regions that it hides a part of.
     pub in_front_of: Vec<usize>,
 }

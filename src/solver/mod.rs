@@ -4,11 +4,13 @@
 //! motion → depth → curves, and ends with the curves, taken singly or not; `history.rs` says when it stops.
 
 mod approach;
+mod find;
 mod history;
 mod report;
 mod weights;
 
 pub(crate) use approach::{Approach, Next, RegionState};
+pub use find::find_curves;
 pub use history::Status;
 pub use report::{Expected, RegionReport, Report, Seconds};
 pub use weights::Weights;

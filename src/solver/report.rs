@@ -46,6 +46,9 @@ pub struct RegionReport {
     /// Whether another motion, with another relief, explains the region as well: the flatter one is given, and
     /// confidence is at most one half.
     pub ambiguous: bool,
+    /// The label of another region, if one motion explains both as well as two do: they may be one thing, or it may be
+    /// scenery at another depth.
+    pub part_of: Option<usize>,
     /// Labels of the regions that it hides a part of.
     pub in_front_of: Vec<usize>,
 }
@@ -147,6 +150,7 @@ impl Report {
                 rotation: state.motion.rotation.to_array(),
                 model: state.model,
                 ambiguous: state.ambiguous,
+                part_of: state.part_of,
                 in_front_of: state.in_front_of,
             })
             .collect();
@@ -197,5 +201,15 @@ fn warnings(regions: &[RegionReport]) -> impl Iterator<Item = String> {
         };
         format!("{name} has two explanations that fit equally well; the one with less relief is shown.")
     });
-    vanished.chain(ambiguous)
+    let parts = regions.iter().filter(|r| r.pixels > 0).filter_map(|r| {
+        let whole = match r.part_of? {
+            0 => "the background".to_owned(),
+            k => format!("region {k}"),
+        };
+        let label = r.label;
+        Some(format!(
+            "One motion explains region {label} and {whole} as well as two do: they may be one."
+        ))
+    });
+    vanished.chain(parts).chain(ambiguous)
 }

@@ -2,11 +2,12 @@
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use super::{Frame, Json, Picture, Word, draw};
+use super::{Frame, Json, Picture, Word, draw, write};
 use crate::error::Error;
 use crate::frames::FramePair;
 use crate::horn_schunck::interpreted;
 use crate::interpretation::Interpretation;
+use crate::view;
 
 /// What Horn–Schunck makes of two frames.
 #[wasm_bindgen]
@@ -25,6 +26,12 @@ pub fn horn_schunck(first: &Frame, second: &Frame) -> Result<Baseline, Error> {
 
 #[wasm_bindgen]
 impl Baseline {
+    /// What the colours of a picture stand for: a `Legend` as JSON, `null` where they are no measure.
+    pub fn legend(&self, kind: &Word, params: &Json) -> Result<String, Error> {
+        let params = params.view_params()?;
+        Ok(write(&view::legend(&kind.view()?, &self.found, &params)?))
+    }
+
     /// A picture of what it found, which is motion only: `flow` or `arrows`; see `viewCatalogue()`.
     pub fn view(&self, kind: &Word, params: &Json) -> Result<Picture, Error> {
         let frames = [self.pair.first(), self.pair.second()];

@@ -6,7 +6,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::files::listed;
 use super::solver::{PICTURES, score_table};
-use super::{Frame, Json, Mesh, Picture, Scene, Solver, Word, draw};
+use super::{Frame, Json, Mesh, Picture, Scene, Solver, Word, draw, write};
 use crate::curves::Contour;
 use crate::error::Error;
 use crate::file::kept::{self, Precision};
@@ -15,6 +15,7 @@ use crate::file::{png, result};
 use crate::frames::FramePair;
 use crate::interpretation::Interpretation;
 use crate::motion_model::MotionModel;
+use crate::probe::probe;
 use crate::view::{self, ViewParams};
 
 /// What is taken from a `Contour`.
@@ -122,6 +123,23 @@ impl Kept {
         let aligned = view::aligned(&self.found, &scene.sequence().truth)?;
         let frames = [self.pair.first(), self.pair.second()];
         draw(&kind.view()?, frames, &aligned, &[], &params.view_params()?)
+    }
+
+    /// What is found at a pixel: a `Probe` as JSON, `null` outside the frame. `params` are those of a view.
+    pub fn probe(&self, x: usize, y: usize, params: &Json) -> Result<String, Error> {
+        let params = params.view_params()?;
+        Ok(write(&probe(
+            &self.pair,
+            &self.found,
+            &params.scales,
+            (x, y),
+        )))
+    }
+
+    /// What the colours of a picture stand for: a `Legend` as JSON, `null` where they are no measure.
+    pub fn legend(&self, kind: &Word, params: &Json) -> Result<String, Error> {
+        let params = params.view_params()?;
+        Ok(write(&view::legend(&kind.view()?, &self.found, &params)?))
     }
 
     /// The relief, with the parameters of a view as JSON.

@@ -81,6 +81,13 @@ impl Scene {
         )
     }
 
+    /// What the colours of such a picture stand for: a `Legend` as JSON, `null` where they are no measure.
+    pub fn legend(&self, kind: &Word, params: &Json) -> Result<String, Error> {
+        let params = params.view_params()?;
+        let truth = &self.sequence.truth;
+        Ok(write(&view::legend(&kind.view()?, truth, &params)?))
+    }
+
     /// `params` with the ends of the colours set as the truth would have them, where they are left open: what is drawn
     /// with them can be compared with the truth by eye.
     #[wasm_bindgen(js_name = sameColours)]

@@ -20,6 +20,7 @@ use crate::file::{png, result};
 use crate::frames::FramePair;
 use crate::interpretation::Interpretation;
 use crate::options::Options;
+use crate::probe::probe;
 use crate::score::{self, Scores};
 use crate::solver::Report;
 use crate::view::{self, ViewParams};
@@ -231,6 +232,23 @@ impl Solver {
         let aligned = view::aligned(self.found(), &scene.sequence().truth)?;
         let frames = [pair.first(), pair.second()];
         draw(&kind.view()?, frames, &aligned, &[], &params.view_params()?)
+    }
+
+    /// What is found at a pixel: a `Probe` as JSON, `null` outside the frame. `params` are those of a view.
+    pub fn probe(&self, x: usize, y: usize, params: &Json) -> Result<String, Error> {
+        let params = params.view_params()?;
+        Ok(write(&probe(
+            self.solver.pair(),
+            self.found(),
+            &params.scales,
+            (x, y),
+        )))
+    }
+
+    /// What the colours of a picture stand for: a `Legend` as JSON, `null` where they are no measure.
+    pub fn legend(&self, kind: &Word, params: &Json) -> Result<String, Error> {
+        let params = params.view_params()?;
+        Ok(write(&view::legend(&kind.view()?, self.found(), &params)?))
     }
 
     /// The relief, with the parameters of a view as JSON.

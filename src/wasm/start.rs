@@ -14,7 +14,7 @@ use crate::init;
 pub fn find_curves(first: &Frame, second: &Frame, camera: &Json) -> Result<String, Error> {
     let pair = FramePair::new(first.0.clone(), second.0.clone())?;
     let camera = camera_of(&pair, camera)?;
-    Ok(write(&init::find_curves(&pair, &camera)))
+    Ok(write(&crate::solver::find_curves(&pair, &camera)))
 }
 
 /// The focal length at which rigid motions explain the frames best, `{"focal", "least", "greatest"}` in

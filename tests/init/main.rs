@@ -3,8 +3,9 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use relievo::init::{Verdict, displacement, find_curves, focal_length};
+use relievo::init::{Verdict, displacement, focal_length};
 use relievo::scene::{self, Sequence};
+use relievo::solver::find_curves;
 use relievo::{Camera, Frame, FramePair, Grid, Shape};
 
 const W: usize = 160;

@@ -3,7 +3,7 @@
 import AxeBuilder from "@axe-core/playwright";
 import type { Page } from "@playwright/test";
 
-import { chooseView, expect, open, read, runPasses, test } from "./helpers";
+import { chooseView, expect, open, read, runPasses, test, inResult, inSettings } from "./helpers";
 
 async function faults(page: Page): Promise<string[]> {
   const { violations } = await new AxeBuilder({ page }).analyze();
@@ -21,8 +21,7 @@ for (const colorScheme of ["light", "dark"] as const) {
     }) => {
       expect(await faults(page)).toEqual([]);
       await runPasses(page, 2);
-      await page.getByText("Weights and choices").click();
-      await page.getByText("Principal point").click();
+      await inSettings(page);
       expect(await faults(page)).toEqual([]);
       for (const view of ["Depth", "Anaglyph", "Relief", "Compare"]) {
         await chooseView(page, view);
@@ -31,8 +30,8 @@ for (const colorScheme of ["light", "dark"] as const) {
     });
 
     test("axe finds nothing serious beside an error", async ({ opened: page }) => {
-      await page.getByLabel("Focal length f, px").fill("0");
-      await page.getByLabel("Focal length f, px").press("Enter");
+      await (await inSettings(page)).getByLabel("Focal length f, px").fill("0");
+      await (await inSettings(page)).getByLabel("Focal length f, px").press("Enter");
       await expect(page.locator("#message")).toBeVisible();
       expect(await faults(page)).toEqual([]);
     });
@@ -42,7 +41,9 @@ for (const colorScheme of ["light", "dark"] as const) {
 const brightness = (page: Page) =>
   page.evaluate(() => {
     const probe = document.createElement("canvas").getContext("2d")!;
-    probe.fillStyle = getComputedStyle(document.querySelector(".panels")!).backgroundColor;
+    probe.fillStyle = getComputedStyle(
+      document.querySelector(".panels:not([hidden])")!,
+    ).backgroundColor;
     probe.fillRect(0, 0, 1, 1);
     return probe.getImageData(0, 0, 1, 1).data[0]!;
   });
@@ -78,7 +79,9 @@ test.describe("on a phone", () => {
     expect(run.y + run.height).toBeLessThan(844);
     const stage = (await page.locator("#stage").boundingBox())!;
     expect(stage.width).toBeGreaterThan(380);
-    await page.getByText("Weights and choices").click();
+    await inSettings(page);
+    // Once more: the sheet goes, and the stage has its room.
+    await page.getByRole("tab", { name: "Settings" }).click();
     await runPasses(page, 1);
     for (const view of ["Motion", "Anaglyph", "Relief", "Compare", "Curves"]) {
       await chooseView(page, view);
@@ -97,9 +100,11 @@ test.describe("on a phone", () => {
 test("the keyboard keeps its place when what it pressed goes away", async ({ opened: page }) => {
   const press = (name: string) => page.getByRole("button", { name }).press("Enter");
   await press("Delete curve 1");
-  await expect(page.getByRole("button", { name: "Delete curve 1" })).toBeFocused();
+  await expect(
+    (await inResult(page)).getByRole("button", { name: "Delete curve 1" }),
+  ).toBeFocused();
   await press("Delete curve 1");
-  await expect(page.getByRole("button", { name: "Add a circle" })).toBeFocused();
+  await expect((await inResult(page)).getByRole("button", { name: "Add a circle" })).toBeFocused();
   await runPasses(page, 1);
   await press("Reset");
   await expect(page.getByRole("button", { name: "Run" })).toBeFocused();
@@ -126,19 +131,29 @@ test("the keyboard reaches everything and always shows where it is", async ({ op
       reached.add(here.id);
     }
   }
-  for (const id of ["scene", "theme", "view-curves", "overlay", "run", "step", "focal", "file-0"]) {
+  for (const id of [
+    "scene",
+    "open",
+    "theme",
+    "view-curves",
+    "overlay",
+    "run",
+    "step",
+    "tab-result",
+  ]) {
     expect([...reached], id).toContain(id);
   }
   expect(await read(page, (state) => state.message)).toBeNull();
 });
 
-test("the link to one's own frames leaves the masthead where it is", async ({ opened: page }) => {
+test("frames of one's own are opened from the masthead", async ({ opened: page }) => {
   await page.setViewportSize({ width: 1280, height: 800 });
-  await page.getByRole("link", { name: "Your own frames" }).click();
+  await page.getByRole("button", { name: "Open", exact: true }).click();
   await expect(page.locator("#frames-title")).toBeInViewport({ ratio: 1 });
   await expect(page.locator(".masthead")).toBeInViewport({ ratio: 1 });
-  expect(await page.evaluate(() => scrollY)).toBe(0);
-  await expect(page.locator("#film-file")).toBeFocused();
+  await expect(page.getByText("Clip or pictures…")).toBeInViewport({ ratio: 1 });
+  await page.keyboard.press("Escape");
+  await expect(page.locator("#frames-title")).toBeHidden();
 });
 
 for (const [what, size] of [

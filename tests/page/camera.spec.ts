@@ -3,7 +3,7 @@
 import AxeBuilder from "@axe-core/playwright";
 
 import { chromiumFlags, findChromium } from "../../scripts/chromium.js";
-import { expect, PATIENCE, read, test, until } from "./helpers";
+import { expect, PATIENCE, read, test, until, inOpen } from "./helpers";
 
 test.use({
   launchOptions: {
@@ -30,7 +30,7 @@ test("nobody is asked for the camera before they want it", async ({ page }) => {
   await until(page, (state) => state.frames !== null && state.busy === null);
   const asked = () => page.evaluate(() => (window as unknown as { asked: number }).asked);
   expect(await asked()).toBe(0);
-  await page.getByRole("button", { name: "Camera…" }).click();
+  await (await inOpen(page)).getByRole("button", { name: "Camera…" }).click();
   await expect(page.locator("#camera-sheet")).toContainText("Ready for the first shot");
   expect(await asked()).toBe(1);
 });
@@ -38,7 +38,7 @@ test("nobody is asked for the camera before they want it", async ({ page }) => {
 test("two shots go to the filmstrip and open as a pair; the camera is let go", async ({
   opened: page,
 }) => {
-  await page.getByRole("button", { name: "Camera…" }).click();
+  await (await inOpen(page)).getByRole("button", { name: "Camera…" }).click();
   const sheet = page.locator("#camera-sheet");
   const shot = page.getByRole("button", { name: "Take a shot" });
   await expect(shot).toBeEnabled({ timeout: PATIENCE });
@@ -65,7 +65,7 @@ test("two shots go to the filmstrip and open as a pair; the camera is let go", a
 });
 
 test("one press takes several, of which two are proposed", async ({ opened: page }) => {
-  await page.getByRole("button", { name: "Camera…" }).click();
+  await (await inOpen(page)).getByRole("button", { name: "Camera…" }).click();
   const several = page.getByRole("button", { name: "Take several" });
   await expect(several).toBeEnabled({ timeout: PATIENCE });
   await several.click();
@@ -86,7 +86,7 @@ test("why there is no picture is said in words", async ({ opened: page }) => {
     await page.evaluate((name) => {
       navigator.mediaDevices.getUserMedia = () => Promise.reject(new DOMException("no", name));
     }, name);
-    await page.getByRole("button", { name: "Camera…" }).click();
+    await (await inOpen(page)).getByRole("button", { name: "Camera…" }).click();
     await expect(page.locator("#camera-sheet")).toContainText(says);
     await expect(page.getByRole("button", { name: "Take a shot" })).toBeDisabled();
     await page.getByRole("button", { name: "Cancel" }).click();

@@ -1,6 +1,6 @@
 /** No request leaves the origin, no script but the page's own runs, and what is sent is sent compressed. */
 
-import { expect, open, read, solve, test, until } from "./helpers";
+import { expect, open, read, solve, test, until, pressView } from "./helpers";
 
 test.use({ bypassCSP: false });
 
@@ -24,10 +24,10 @@ test("a strict policy holds, in the head and from the server, and nothing breaks
   await open(page);
   await solve(page);
   for (const view of ["Depth", "Anaglyph", "Compare"]) {
-    await page.getByRole("radio", { name: view, exact: true }).check({ force: true });
+    await pressView(page, view);
   }
   await until(page, ({ pictured }) => pictured.startsWith("compare"));
-  await page.getByRole("radio", { name: "Relief" }).check({ force: true });
+  await pressView(page, "Relief");
   await expect(page.locator("#relief canvas")).toBeVisible();
   const broken = await page.evaluate(() => (window as unknown as { broken: string[] }).broken);
   expect(broken).toEqual([]);

@@ -14,6 +14,8 @@ import {
   runPasses,
   test,
   until,
+  inResult,
+  inTransport,
 } from "./helpers";
 
 const shapes = (page: Page) => read(page, (state) => state.shapes);
@@ -249,7 +251,7 @@ test("Escape gives up a half-drawn curve", async ({ opened: page }) => {
 test("curves can be moved while it runs, and the run takes them up", async ({ opened: page }) => {
   await runPasses(page, 2);
   const before = await read(page, (state) => JSON.stringify(state.contours));
-  await page.getByRole("button", { name: "Curve 1", exact: true }).click();
+  await (await inResult(page)).getByRole("button", { name: "Curve 1", exact: true }).click();
   for (let i = 0; i < 3; i++) await page.keyboard.press("Shift+ArrowUp");
   await page.waitForFunction(
     (old) =>
@@ -264,12 +266,12 @@ test("curves can be moved while it runs, and the run takes them up", async ({ op
 
 test("a curve drawn while it runs joins in", async ({ opened: page }) => {
   await runLong(page);
-  await page.getByRole("button", { name: "Add a circle" }).click();
+  await (await inResult(page)).getByRole("button", { name: "Add a circle" }).click();
   await until(page, (state) => state.report!.regions.length === 4);
   await page.getByRole("button", { name: "Undo", exact: true }).click();
   await until(page, (state) => state.report!.regions.length === 3);
   expect(await read(page, (state) => state.running)).toBe(true);
-  await page.getByLabel("Pace").selectOption("as fast as it goes");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as it goes");
   await until(page, (state) => !state.running);
   await expect(page.locator("#status")).toContainText("Converged");
   await expect(page.locator("#message")).toBeHidden();
@@ -278,7 +280,7 @@ test("a curve drawn while it runs joins in", async ({ opened: page }) => {
 test("a curve off the frame is refused with a sentence, and stays to be moved back", async ({
   opened: page,
 }) => {
-  await page.getByRole("button", { name: "Curve 1", exact: true }).click();
+  await (await inResult(page)).getByRole("button", { name: "Curve 1", exact: true }).click();
   for (let i = 0; i < 30; i++) await page.keyboard.press("Shift+ArrowLeft");
   await expect(page.locator("#message")).toContainText("curve 1 lies outside", {
     ignoreCase: true,
@@ -294,7 +296,7 @@ test("a curve off the frame is refused with a sentence, and stays to be moved ba
 
 test("no more curves than regions", async ({ opened: page }) => {
   const most = await read(page, (state) => state.catalogues!.limits.maxCurves);
-  const add = page.getByRole("button", { name: "Add a circle" });
+  const add = (await inResult(page)).getByRole("button", { name: "Add a circle" });
   for (let i = 2; i < most + 1; i++) await add.click();
   expect(await shapes(page)).toHaveLength(most);
   await expect(page.locator("#message")).toContainText(`${most} curves are drawn`);

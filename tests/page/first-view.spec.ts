@@ -1,6 +1,6 @@
 /** What a sequence shows at first: its curves drawn, ready to run. */
 
-import { expect, look, read, test } from "./helpers";
+import { expect, look, read, test, inSettings } from "./helpers";
 
 test("a sequence is there with its curves drawn, ready to run", async ({ opened: page }) => {
   await expect(page).toHaveTitle(/Relievo/);
@@ -12,7 +12,7 @@ test("a sequence is there with its curves drawn, ready to run", async ({ opened:
   await expect(page.getByRole("button", { name: "Run" })).toBeEnabled();
   await expect(page.locator("#regions > li")).toHaveCount(3);
   await expect(page.locator("#status")).toHaveText("Ready");
-  await expect(page.getByLabel("Preset")).toHaveValue("best");
+  await expect((await inSettings(page)).getByLabel("Preset")).toHaveValue("best");
   await expect(page.locator("#lesson")).not.toBeEmpty();
   expect((await look(page)).colours).toBeGreaterThan(20);
   expect((await look(page, "#overlay")).colours).toBeGreaterThan(2);

@@ -17,6 +17,10 @@ import {
   runPasses,
   test,
   until,
+  inOpen,
+  inResult,
+  inSettings,
+  inTransport,
 } from "./helpers";
 
 const first = (page: Page) => page.locator("#file-0");
@@ -45,10 +49,10 @@ test("two frames are picked, first and second, and run", async ({ opened: page }
   await ownAreOpen(page);
   expect(await read(page, (state) => state.shapes)).toEqual([]);
   expect(await read(page, (state) => state.camera.focal)).toBe((await kept(page)).width);
-  await expect(page.locator("#scores-panel")).toBeHidden();
+  await expect((await inResult(page)).locator("#scores-panel")).toBeHidden();
   // A demonstration is for watching; one's own frames are for the result.
-  await expect(page.getByLabel("Pace")).toHaveValue("0");
-  await page.getByRole("button", { name: "Add a circle" }).click();
+  await expect((await inTransport(page)).getByLabel("Pace")).toHaveValue("0");
+  await (await inResult(page)).getByRole("button", { name: "Add a circle" }).click();
   await runPasses(page, 2);
   expect(await read(page, (state) => state.report!.regions.length)).toBe(2);
 });
@@ -62,10 +66,10 @@ test("two at once are ordered by name, and swapped on demand", async ({ opened: 
   // Without the curves that were drawn: compare the pictures alone.
   const opened = await look(page);
   expect(opened.print).toBe(before.print);
-  await page.getByRole("button", { name: "Add a circle" }).click();
-  await page.getByLabel("Focal length f, px").fill("250");
-  await page.getByLabel("Focal length f, px").press("Enter");
-  await page.getByRole("button", { name: "Swap the two frames" }).click();
+  await (await inResult(page)).getByRole("button", { name: "Add a circle" }).click();
+  await (await inSettings(page)).getByLabel("Focal length f, px").fill("250");
+  await (await inSettings(page)).getByLabel("Focal length f, px").press("Enter");
+  await (await inOpen(page)).getByRole("button", { name: "Swap the two frames" }).click();
   await until(page, (state) => state.names[0] === "frame10.png" && state.busy === null);
   expect(await read(page, (state) => state.camera.focal)).toBe(250);
   // Focal length and circle are taken back one after the other.
@@ -93,7 +97,7 @@ test("a sequence chosen while own frames are read is the one that opens; they ca
   }, files);
   await until(page, (state) => state.slots[1] !== null && state.busy === null);
   expect((await kept(page)).name).toBe("figure");
-  await page.getByRole("button", { name: "Use them" }).click();
+  await (await inOpen(page)).getByRole("button", { name: "Use them" }).click();
   await ownAreOpen(page);
 });
 
@@ -206,7 +210,10 @@ test("a pair that is refused leaves the run alone", async ({ opened: page }) => 
   expect(await read(page, (state) => state.running)).toBe(true);
 });
 
-test.describe("bad input gets a sentence and changes nothing", () => {
+test("bad input gets a sentence and changes nothing", async ({ opened: page }) => {
+  await runPasses(page, 1);
+  const before = await kept(page);
+  const energy = await read(page, (state) => state.report!.energy.total);
   const cases: {
     name: string;
     says: RegExp;
@@ -258,10 +265,7 @@ test.describe("bad input gets a sentence and changes nothing", () => {
     },
   ];
   for (const { name, says, files } of cases) {
-    test(name, async ({ opened: page }) => {
-      await runPasses(page, 1);
-      const before = await kept(page);
-      const energy = await read(page, (state) => state.report!.energy.total);
+    await test.step(name, async () => {
       const [one, two] = await files(page);
       await first(page).setInputFiles([png("a.png", one), png("b.png", two)]);
       await expect(message(page)).toContainText(says, { timeout: 60_000 });
@@ -270,10 +274,10 @@ test.describe("bad input gets a sentence and changes nothing", () => {
       expect(await read(page, (state) => state.report!.energy.total)).toBe(energy);
       await page.getByRole("button", { name: "Dismiss this message" }).click();
       await expect(message(page)).toBeHidden();
-      await page.getByRole("button", { name: "Step" }).click();
-      await until(page, (state) => state.report!.iterations >= 2);
     });
   }
+  await page.getByRole("button", { name: "Step" }).click();
+  await until(page, (state) => state.report!.iterations >= 2);
 });
 
 test("of two files at once neither is taken when one is no image", async ({ opened: page }) => {
@@ -297,12 +301,12 @@ test("one frame only is said, kept waiting, and can be discarded", async ({ open
   await second(page).setInputFiles(png("late.png", one));
   await expect(page.locator("#slots-note")).toContainText("first frame is still missing");
   await runPasses(page, 1);
-  await page.getByRole("button", { name: "Discard" }).click();
+  await (await inOpen(page)).getByRole("button", { name: "Discard" }).click();
   expect(await read(page, (state) => state.slots)).toEqual([null, null]);
 });
 
 test("a focal length no camera has is refused and can be corrected", async ({ opened: page }) => {
-  const field = page.getByLabel("Focal length f, px");
+  const field = (await inSettings(page)).getByLabel("Focal length f, px");
   const good = await field.inputValue();
   await field.fill("-5");
   await field.press("Enter");
@@ -319,15 +323,15 @@ test("a focal length no camera has is refused and can be corrected", async ({ op
 
 test("focal length and field of view go together", async ({ opened: page }) => {
   const width = await read(page, (state) => state.width);
-  await page.getByLabel("Field of view, °").fill("90");
-  await page.getByLabel("Field of view, °").press("Enter");
+  await (await inSettings(page)).getByLabel("Field of view, °").fill("90");
+  await (await inSettings(page)).getByLabel("Field of view, °").press("Enter");
   await until(page, (state) => Math.abs(state.camera.focal - state.width / 2) < 0.01);
-  await page.getByLabel("Focal length f, px").fill(String(width));
-  await page.getByLabel("Focal length f, px").press("Enter");
-  await expect(page.getByLabel("Field of view, °")).toHaveValue("53.1");
+  await (await inSettings(page)).getByLabel("Focal length f, px").fill(String(width));
+  await (await inSettings(page)).getByLabel("Focal length f, px").press("Enter");
+  await expect((await inSettings(page)).getByLabel("Field of view, °")).toHaveValue("53.1");
   for (const wrong of ["", "0", "200"]) {
-    await page.getByLabel("Field of view, °").fill(wrong);
-    await page.getByLabel("Field of view, °").press("Enter");
+    await (await inSettings(page)).getByLabel("Field of view, °").fill(wrong);
+    await (await inSettings(page)).getByLabel("Field of view, °").press("Enter");
     await expect(message(page)).toContainText("between 0 and 180");
     expect(await read(page, (state) => state.camera.focal)).toBe(width);
     await page.locator("#message-close").click();
@@ -347,8 +351,8 @@ test("what is wrong with a value stays said when the worker accepts the one befo
     type("fov", "200");
   });
   // The worker answers in turn, so that it has taken the focal length by now.
-  await page.getByRole("button", { name: "Find f" }).click();
-  await expect(page.locator("#camera")).toContainText("do not tell f");
+  await (await inSettings(page)).getByRole("button", { name: "Find f" }).click();
+  await expect((await inSettings(page)).locator("#camera")).toContainText("do not tell f");
   await expect(message(page)).toContainText("between 0 and 180");
 });
 
@@ -360,7 +364,7 @@ test("a focal length typed while one is looked for is kept", async ({ opened: pa
     field.dispatchEvent(new Event("change"));
   });
   await ready(page);
-  await expect(page.getByLabel("Focal length f, px")).toHaveValue("555");
+  await expect((await inSettings(page)).getByLabel("Focal length f, px")).toHaveValue("555");
   expect(await read(page, (state) => state.camera.focal)).toBe(555);
 });
 
@@ -368,11 +372,11 @@ test("the focal length is found where the frames tell it, and kept where they do
   opened: page,
 }) => {
   test.slow();
-  const find = page.getByRole("button", { name: "Find f" });
-  const field = page.getByLabel("Focal length f, px");
+  const find = (await inSettings(page)).getByRole("button", { name: "Find f" });
+  const field = (await inSettings(page)).getByLabel("Focal length f, px");
   const usual = await field.inputValue();
   await find.click();
-  await expect(page.locator("#camera")).toContainText("do not tell f");
+  await expect((await inSettings(page)).locator("#camera")).toContainText("do not tell f");
   expect(await field.inputValue()).toBe(usual);
 
   const [width, height, truth] = [240, 180, 3];
@@ -391,12 +395,15 @@ test("the focal length is found where the frames tell it, and kept where they do
     })),
   );
   await ownAreOpen(page);
-  await expect(page.locator("#camera")).not.toContainText("do not tell f");
+  await expect((await inSettings(page)).locator("#camera")).not.toContainText("do not tell f");
   expect(await field.inputValue()).toBe(String(width));
   await find.click();
-  await expect(page.locator("#camera")).toContainText("as far as these frames tell", {
-    timeout: PATIENCE,
-  });
+  await expect((await inSettings(page)).locator("#camera")).toContainText(
+    "as far as these frames tell",
+    {
+      timeout: PATIENCE,
+    },
+  );
   expect(Math.abs(Math.log(Number(await field.inputValue()) / (truth * width)))).toBeLessThan(0.4);
   await expect(message(page)).toBeHidden();
 });

@@ -65,17 +65,47 @@ export async function runPasses(page: Page, count: number): Promise<void> {
   await pauseRun(page);
 }
 
+/** Opens a tab of the panel, with everything that can be unfolded in it. */
+export async function openTab(page: Page, name: "Result" | "Settings" | "Learn"): Promise<Page> {
+  const tab = page.getByRole("tab", { name });
+  if ((await tab.getAttribute("aria-selected")) !== "true") await tab.click();
+  await page.evaluate(() => {
+    for (const one of document.querySelectorAll("[role=tabpanel]:not([hidden]) details")) {
+      one.setAttribute("open", "");
+    }
+  });
+  return page;
+}
+
+export const inSettings = (page: Page) => openTab(page, "Settings");
+export const inResult = (page: Page) => openTab(page, "Result");
+
+/** The panel in which frames of one's own are opened. */
+export async function inOpen(page: Page): Promise<Page> {
+  const panel = page.locator("#frames-panel");
+  if (!(await panel.isVisible()))
+    await page.getByRole("button", { name: "Open", exact: true }).click();
+  return page;
+}
+
+/** The pace and the parts of a pass; behind a button where the window is not wide. */
+export async function inTransport(page: Page): Promise<Page> {
+  const more = page.getByRole("button", { name: "Single parts and speed" });
+  if (!(await page.locator("#pace").isVisible())) await more.click();
+  return page;
+}
+
 /** Sets a run going that lasts far longer than any test looks at it. */
 export async function runLong(page: Page): Promise<void> {
-  await page.getByLabel("Preset").selectOption("paper");
-  await page.getByLabel("Pace").selectOption("slow enough to watch");
+  await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("slow enough to watch");
   await page.getByRole("button", { name: "Run" }).click();
   await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
 }
 
 /** Runs to the end, as fast as it goes. */
 export async function solve(page: Page): Promise<void> {
-  await page.getByLabel("Pace").selectOption("as fast as it goes");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as it goes");
   await page.getByRole("button", { name: "Run" }).click();
   await until(page, ({ report, running, started }) => {
     return started && !running && report !== null && report.status !== "running";
@@ -118,8 +148,31 @@ export async function openScene(page: Page, scene: string): Promise<void> {
   );
 }
 
+/** The first row names some views otherwise, or several of them at once. */
+const ROW: Record<string, string> = {
+  Curves: "Outlines",
+  Relief: "3-D",
+  Anaglyph: "3-D",
+  Labels: "Diagnostics",
+  Confidence: "Diagnostics",
+  Occlusion: "Diagnostics",
+  Compare: "Diagnostics",
+};
+
+/** As a person would: the row of views, then the choice within. */
+export async function pressView(page: Page, name: string): Promise<void> {
+  const row = ROW[name] ?? name;
+  await page
+    .locator("#views")
+    .getByRole("radio", { name: row, exact: true })
+    .check({ force: true });
+  if (row === name || row === "Outlines") return;
+  const within = page.locator("#views-within").getByRole("radio", { name, exact: true });
+  await within.check({ force: true });
+}
+
 export async function chooseView(page: Page, name: string): Promise<void> {
-  await page.getByRole("radio", { name, exact: true }).check({ force: true });
+  await pressView(page, name);
   await until(
     page,
     ({ view, pictured, pictures }) =>

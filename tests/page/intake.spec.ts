@@ -5,7 +5,7 @@ import type { Page } from "@playwright/test";
 
 import type { State } from "../../www/store";
 import { apng, clip, gif, matroska, moments, mpo, numberOn, photo, still, webp } from "./films";
-import { expect, PATIENCE, png, read, ready, solve, test, until } from "./helpers";
+import { expect, PATIENCE, png, read, ready, solve, test, until, inOpen } from "./helpers";
 
 const any = (page: Page) => page.locator("#film-file");
 const strip = (page: Page) => page.locator("#filmstrip");
@@ -282,11 +282,11 @@ test("three pictures dropped at once are a filmstrip in the order of their names
   await openThese(page);
   expect(await read(page, (state) => state.names)).toEqual(["img0.png", "img5.png"]);
   // The film stays at hand, at the frames that were chosen.
-  await page.getByRole("button", { name: "Other frames…" }).click();
+  await (await inOpen(page)).getByRole("button", { name: "Other frames…" }).click();
   expect(await marked(page)).toEqual([0, 5]);
   await page.keyboard.press("Escape");
   await expect(strip(page)).toHaveCount(0);
-  await expect(page.getByRole("button", { name: "Other frames…" })).toBeFocused();
+  await expect((await inOpen(page)).getByRole("button", { name: "Other frames…" })).toBeFocused();
 });
 
 test("what is wrong with two frames is said in the filmstrip, which stays open", async ({

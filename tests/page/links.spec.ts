@@ -2,7 +2,19 @@
 
 import type { Page } from "@playwright/test";
 
-import { chooseView, expect, open, openScene, read, ready, solve, test, until } from "./helpers";
+import {
+  chooseView,
+  expect,
+  open,
+  openScene,
+  read,
+  ready,
+  solve,
+  test,
+  until,
+  inResult,
+  inSettings,
+} from "./helpers";
 
 const setting = (page: Page) =>
   read(page, ({ source, shapes, camera, options, view, viewParams, scales }) =>
@@ -16,11 +28,11 @@ test("a shared link restores sequence, curves, settings and view elsewhere", asy
 }) => {
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   await open(page, "./#squares");
-  await page.getByRole("button", { name: "Delete curve 2" }).click();
-  await page.getByRole("button", { name: "Add a circle" }).click();
-  await page.getByLabel("Focal length f, px").fill("400");
-  await page.getByLabel("Focal length f, px").press("Enter");
-  await page.getByLabel("Preset").selectOption("paper");
+  await (await inResult(page)).getByRole("button", { name: "Delete curve 2" }).click();
+  await (await inResult(page)).getByRole("button", { name: "Add a circle" }).click();
+  await (await inSettings(page)).getByLabel("Focal length f, px").fill("400");
+  await (await inSettings(page)).getByLabel("Focal length f, px").press("Enter");
+  await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
   await chooseView(page, "Anaglyph");
   await page.locator("#setting-glasses").selectOption({ index: 1 });
   await page.getByRole("button", { name: "Share a link" }).click();
@@ -95,7 +107,7 @@ test("Back and Forward step through sequences and views", async ({ opened: page 
 });
 
 test("what a link replaces can be had again", async ({ opened: page }) => {
-  await page.getByRole("button", { name: "Delete curve 2" }).click();
+  await (await inResult(page)).getByRole("button", { name: "Delete curve 2" }).click();
   await until(page, ({ memory }) => (memory?.length ?? 0) > 0);
   await page.waitForTimeout(700);
   await page.evaluate(() => (location.hash = "#blocks/curves?c="));

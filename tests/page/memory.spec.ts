@@ -17,6 +17,9 @@ import {
   solve,
   test,
   until,
+  inResult,
+  inSettings,
+  inTransport,
 } from "./helpers";
 
 /** Waits until this device keeps what is seen, with its result. */
@@ -39,8 +42,12 @@ const resumed = (page: Page) =>
   until(page, ({ frames, busy, started }) => frames !== null && busy === null && started);
 
 test("curves, settings, view and result are there after a reload", async ({ opened: page }) => {
-  await page.getByRole("button", { name: "Delete curve 2" }).click();
-  await page.getByLabel("Brightness change").evaluate((box: HTMLInputElement) => box.click());
+  await (await inResult(page)).getByRole("button", { name: "Delete curve 2" }).click();
+  await (
+    await inSettings(page)
+  )
+    .getByLabel("Brightness change")
+    .evaluate((box: HTMLInputElement) => box.click());
   await solve(page);
   await chooseView(page, "Depth");
   await page.locator("#setting-palette").selectOption({ index: 1 });
@@ -58,9 +65,9 @@ test("curves, settings, view and result are there after a reload", async ({ open
   await until(page, ({ pictured }) => pictured.startsWith("depth"));
   expect(await facts()).toBe(before);
   expect((await look(page)).print).toBe(seen.print);
-  await expect(page.locator("#energy-panel")).toBeVisible();
+  await expect((await inResult(page)).locator("#energy-panel")).toBeVisible();
   // It can be worked on as if nothing had been.
-  await page.getByRole("button", { name: "Result files" }).click();
+  await (await inResult(page)).getByRole("button", { name: "Result files" }).click();
   await expect(page.getByRole("link", { name: /depth\.pfm/ })).toBeVisible();
   await solve(page);
 });
@@ -91,7 +98,7 @@ test("frames of one's own survive a reload, and are in the list beside the seque
   const [one, two] = await framesOf(page, "squares");
   await page.locator("#file-0").setInputFiles([png("a.png", one), png("b.png", two)]);
   await until(page, ({ source, busy }) => source?.kind === "files" && busy === null);
-  await page.getByRole("button", { name: "Add a circle" }).click();
+  await (await inResult(page)).getByRole("button", { name: "Add a circle" }).click();
   await solve(page);
   await kept(page, "own-");
   await page.reload();
@@ -113,7 +120,7 @@ test("what is kept is said, and can be forgotten", async ({ opened: page }) => {
   await expect(page.locator("#kept")).toContainText(/1 pair .* of at most 256/);
   const { violations } = await new AxeBuilder({ page }).analyze();
   expect(violations.map(({ id }) => id)).toEqual([]);
-  await page.getByRole("button", { name: "Forget all" }).click();
+  await (await inResult(page)).getByRole("button", { name: "Forget all" }).click();
   await expect(page.locator("#kept")).toContainText("Nothing is kept");
   // What is open stays.
   expect(await read(page, ({ started }) => started)).toBe(true);
@@ -138,11 +145,11 @@ test("nudging a curve after a solve starts anew, and undo brings the result back
   const report = await read(page, (state) => JSON.stringify(state.report));
   const seen = await look(page);
   const energy = await page.locator("#energy-text").textContent();
-  await page.getByRole("button", { name: "Curve 1", exact: true }).click();
+  await (await inResult(page)).getByRole("button", { name: "Curve 1", exact: true }).click();
   await page.keyboard.press("Shift+ArrowUp");
   await until(page, ({ started, report }) => !started && report?.iterations === 0);
   // No number of another result.
-  await expect(page.locator("#energy-panel")).toBeHidden();
+  await expect((await inResult(page)).locator("#energy-panel")).toBeHidden();
   await expect(page.locator("#status")).toHaveText("Ready");
   await page.getByRole("button", { name: "Undo" }).click();
   await resumed(page);
@@ -151,24 +158,24 @@ test("nudging a curve after a solve starts anew, and undo brings the result back
   expect((await look(page)).print).toBe(seen.print);
   await page.getByRole("button", { name: "Redo" }).click();
   await until(page, ({ started, report }) => !started && report?.iterations === 0);
-  await expect(page.locator("#energy-panel")).toBeHidden();
+  await expect((await inResult(page)).locator("#energy-panel")).toBeHidden();
 });
 
 test("settings and resets are undone as well, in any view", async ({ opened: page }) => {
   await solve(page);
   const passes = await read(page, ({ report }) => report!.iterations);
   await chooseView(page, "Depth");
-  await page.getByLabel("Focal length f, px").fill("500");
-  await page.getByLabel("Focal length f, px").press("Enter");
+  await (await inSettings(page)).getByLabel("Focal length f, px").fill("500");
+  await (await inSettings(page)).getByLabel("Focal length f, px").press("Enter");
   await until(page, ({ started }) => !started);
-  await page.getByLabel("Preset").selectOption("paper");
+  await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
   await until(page, ({ report }) => report?.levels === 1);
   const undo = page.getByRole("button", { name: "Undo" });
   await undo.click();
   await until(page, ({ report, options }) => report!.levels > 1 && options.preset === undefined);
   await undo.click();
   await resumed(page);
-  await expect(page.getByLabel("Focal length f, px")).toHaveValue("320");
+  await expect((await inSettings(page)).getByLabel("Focal length f, px")).toHaveValue("320");
   expect(await read(page, ({ report }) => report!.iterations)).toBe(passes);
   await page.getByRole("button", { name: "Reset" }).click();
   await until(page, ({ started }) => !started);
@@ -179,11 +186,11 @@ test("settings and resets are undone as well, in any view", async ({ opened: pag
 
 test("a cancelled run gives back the result from before it", async ({ opened: page }) => {
   // Long enough to be cancelled, however slow the machine.
-  await page.getByLabel("Preset").selectOption("paper");
+  await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
   await solve(page);
   const passes = await read(page, ({ report }) => report!.iterations);
   await until(page, ({ heldFound }) => heldFound !== null);
-  await page.getByLabel("Pace").selectOption("slow enough to watch");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("slow enough to watch");
   await page.getByRole("button", { name: "Run again" }).click();
   await until(page, ({ running, report }) => running && report!.iterations < 6);
   await page.getByRole("button", { name: "Cancel" }).click();
@@ -194,12 +201,12 @@ test("a cancelled run gives back the result from before it", async ({ opened: pa
 });
 
 test("a new pair is set up with the present settings", async ({ opened: page }) => {
-  await page.getByLabel("Preset").selectOption("paper");
+  await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
   const [one, two] = await framesOf(page, "squares");
   await page.locator("#file-0").setInputFiles([png("a.png", one), png("b.png", two)]);
   await until(page, ({ source, busy }) => source?.kind === "files" && busy === null);
   // One scale is paper's: it was opened with that preset, not with the default.
   await until(page, ({ report }) => report?.levels === 1);
-  await expect(page.getByLabel("Preset")).toHaveValue("paper");
+  await expect((await inSettings(page)).getByLabel("Preset")).toHaveValue("paper");
   await ready(page);
 });

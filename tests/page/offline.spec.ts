@@ -4,7 +4,7 @@ import { appendFileSync, cpSync, rmSync } from "node:fs";
 import { join } from "node:path";
 
 import { serve } from "../../scripts/serve.js";
-import { expect, look, PATIENCE, read, test, until } from "./helpers";
+import { expect, look, PATIENCE, read, test, until, pressView } from "./helpers";
 
 test.use({ serviceWorkers: "allow" });
 
@@ -21,7 +21,7 @@ test("after the first visit it works without a network", async ({ page, context 
   await until(page, ({ frames, busy }) => frames !== null && busy === null);
   expect((await look(page)).colours).toBeGreaterThan(20);
   // What is loaded late is there, too.
-  await page.getByRole("radio", { name: "Relief" }).check({ force: true });
+  await pressView(page, "Relief");
   await expect(page.locator("#relief canvas")).toBeVisible();
   await context.setOffline(false);
 });

@@ -5,14 +5,26 @@ import AxeBuilder from "@axe-core/playwright";
 import { estimate } from "../../www/progress";
 import type { Report } from "../../www/worker/protocol";
 import type { State } from "../../www/store";
-import { expect, look, open, passes, PATIENCE, read, runLong, test, until } from "./helpers";
+import {
+  expect,
+  look,
+  open,
+  passes,
+  PATIENCE,
+  read,
+  runLong,
+  test,
+  until,
+  inTransport,
+  pressView,
+} from "./helpers";
 
 test("a run says what it does, shows a bar that grows, and the time left", async ({
   opened: page,
 }) => {
   const bar = page.getByRole("progressbar");
   await expect(bar).toBeHidden();
-  await page.getByLabel("Pace").selectOption("slow enough to watch");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("slow enough to watch");
   await page.getByRole("button", { name: "Run", exact: true }).click();
   await until(page, ({ report }) => (report?.iterations ?? 0) >= 2);
   await expect(bar).toBeVisible();
@@ -69,7 +81,7 @@ test("a view chosen in the middle of a long pass shows what the last one came to
     await route.fulfill({ response, body: `${SLOW}\n${await response.text()}` });
   });
   await open(page);
-  await page.getByLabel("Pace").selectOption("as fast as it goes");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as it goes");
   await page.getByRole("button", { name: "Run", exact: true }).click();
   await until(page, ({ report }) => (report?.iterations ?? 0) >= 2);
   for (const [name, id] of [
@@ -77,7 +89,7 @@ test("a view chosen in the middle of a long pass shows what the last one came to
     ["Confidence", "confidence"],
   ] as const) {
     const made = await passes(page);
-    await page.getByRole("radio", { name, exact: true }).check({ force: true });
+    await pressView(page, name);
     await page.waitForFunction(
       (id) => (window as unknown as { relievo: State }).relievo.pictured.startsWith(id),
       id,

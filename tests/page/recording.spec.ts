@@ -2,7 +2,20 @@
 
 import AxeBuilder from "@axe-core/playwright";
 
-import { expect, look, open, openScene, read, ready, solve, test, until } from "./helpers";
+import {
+  expect,
+  look,
+  open,
+  openScene,
+  read,
+  ready,
+  solve,
+  test,
+  until,
+  inResult,
+  openTab,
+  pressView,
+} from "./helpers";
 
 test("a finished result plays before the core is there, and is the core's once it is", async ({
   page,
@@ -24,9 +37,9 @@ test("a finished result plays before the core is there, and is the core's once i
   release();
   await until(page, ({ frames, busy, playing }) => frames !== null && busy === null && !playing);
   await expect(page.locator("#status")).toContainText("Converged");
-  await expect(page.locator("#scores-panel")).toBeVisible();
+  await expect((await inResult(page)).locator("#scores-panel")).toBeVisible();
   // Any view can be had of it now.
-  await page.getByRole("radio", { name: "Anaglyph" }).check({ force: true });
+  await pressView(page, "Anaglyph");
   await until(page, ({ pictured }) => pictured.startsWith("anaglyph"));
   expect((await look(page)).colours).toBeGreaterThan(50);
 });
@@ -78,8 +91,12 @@ test("the picture comes before the core is asked for, and takes little", async (
 test("a recording can be played again, and what was there before is a step back", async ({
   opened: page,
 }) => {
-  await page.getByRole("button", { name: "Add a circle" }).click();
-  await page.getByRole("button", { name: "Play a recorded solve" }).click();
+  await (await inResult(page)).getByRole("button", { name: "Add a circle" }).click();
+  await (
+    await openTab(page, "Learn")
+  )
+    .getByRole("button", { name: "Play a recorded solve" })
+    .click();
   await until(page, ({ playing, report }) => playing && (report?.iterations ?? 0) > 2);
   await until(page, ({ playing, started, busy }) => !playing && started && busy === null);
   await expect(page.locator("#status")).toContainText("Converged");
@@ -117,6 +134,6 @@ test("an unvisited sequence opens on its frame, whatever was looked at before", 
   await open(page, "./#blocks/depth");
   await openScene(page, "squares");
   await ready(page);
-  await expect(page.getByRole("radio", { name: "Curves", exact: true })).toBeChecked();
+  await expect(page.getByRole("radio", { name: "Outlines", exact: true })).toBeChecked();
   expect((await look(page)).colours).toBeGreaterThan(20);
 });

@@ -16,6 +16,9 @@ import {
   solve,
   test,
   until,
+  inResult,
+  inSettings,
+  inTransport,
 } from "./helpers";
 
 const message = (page: Page) => page.locator("#message");
@@ -33,7 +36,7 @@ test("a run makes the energy fall and the curves move on the frame", async ({ op
   expect(last.at(-1)!).toBeLessThanOrEqual(last[0]!);
   expect(await read(page, (state) => state.contours.length)).toBeGreaterThan(1);
   expect((await look(page)).print).not.toBe(before.print);
-  await expect(page.locator("#energy-panel")).toBeVisible();
+  await expect((await inResult(page)).locator("#energy-panel")).toBeVisible();
   await expect(page.locator("#energy-text")).toContainText(/\d/);
   expect((await look(page, "#energy-plot canvas")).colours).toBeGreaterThan(1);
 });
@@ -58,28 +61,32 @@ test("pausing holds, running goes on from there", async ({ opened: page }) => {
 
 test("each part of a pass can be taken by itself", async ({ opened: page }) => {
   const motion = () => read(page, (state) => JSON.stringify(state.report?.regions));
-  await page.getByRole("button", { name: "Motion", exact: true }).click();
+  await (await inTransport(page)).getByRole("button", { name: "Motion", exact: true }).click();
   await expect.poll(motion, { timeout: 30_000 }).toMatch(/[1-9]/);
   await until(page, (state) => (state.report?.seconds.motion ?? 0) > 0);
   // The first passes have no depth.
-  await page.getByRole("button", { name: "Depth", exact: true }).click();
+  await (await inTransport(page)).getByRole("button", { name: "Depth", exact: true }).click();
   await expect(message(page)).toContainText("no depth yet");
   const { depth, curves } = await read(page, (state) => state.report!.seconds);
   expect([depth, curves]).toEqual([0, 0]);
-  await page.getByRole("button", { name: "Curves", exact: true }).click();
+  await (await inTransport(page)).getByRole("button", { name: "Curves", exact: true }).click();
   await until(page, (state) => state.report!.seconds.curves > 0);
   // The curves end a pass.
   await expect.poll(() => passes(page), { timeout: PATIENCE }).toBe(1);
 });
 
 test("depth can be taken by itself", async ({ opened: page }) => {
-  await runPasses(page, 8);
-  const count = await passes(page);
+  // By steps: a run may be over before it is paused.
+  const count = 8;
+  for (let done = 1; done <= count; done += 1) {
+    await page.getByRole("button", { name: "Step" }).click();
+    await expect.poll(() => passes(page), { timeout: PATIENCE }).toBe(done);
+  }
   const spent = await read(page, (state) => state.report!.seconds);
   await page.evaluate(() =>
     Object.assign(window, { then: (window as unknown as Seen).relievo.report }),
   );
-  await page.getByRole("button", { name: "Depth", exact: true }).click();
+  await (await inTransport(page)).getByRole("button", { name: "Depth", exact: true }).click();
   await page.waitForFunction(
     () => (window as unknown as Seen).relievo.report !== (window as unknown as Seen).then,
     undefined,
@@ -138,11 +145,11 @@ test("where energies do not compare the line is broken, and that is said", async
 test("a sequence runs slowly enough to watch, one's own pace is kept, and pausing does not wait", async ({
   opened: page,
 }) => {
-  const pace = page.getByLabel("Pace");
+  const pace = (await inTransport(page)).getByLabel("Pace");
   await expect(pace).toHaveValue("400");
-  await page.getByLabel("Preset").selectOption("paper");
+  await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
   await expect(pace).toHaveValue("100");
-  await page.getByLabel("Preset").selectOption("best");
+  await (await inSettings(page)).getByLabel("Preset").selectOption("best");
   // Three rests lie between the start and the fourth pass, however slow the machine.
   const elapsed = await page.evaluate(async () => {
     const start = performance.now();
@@ -153,7 +160,7 @@ test("a sequence runs slowly enough to watch, one's own pace is kept, and pausin
   });
   expect(elapsed).toBeGreaterThan(3 * 400 - 10);
   await pauseRun(page);
-  await pace.selectOption("as fast as it goes");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as it goes");
   await page.getByRole("button", { name: "Run" }).click();
   await until(page, (state) => state.report!.status !== "running" && !state.running);
   await openScene(page, "squares");
@@ -172,16 +179,16 @@ test("how good the result is expected to be is said", async ({ opened: page }) =
 test("options without effect under the preset are out of reach, and it is said why", async ({
   opened: page,
 }) => {
-  await page.getByText("Weights and choices").click();
-  const idle = page.locator("#options .option").filter({ hasText: "No effect under" });
+  await inSettings(page);
+  const idle = page.locator("#panel-settings .option").filter({ hasText: "No effect under" });
   const [steps, occlusion] = [
-    page.locator("#option-depth_steps"),
-    page.locator("#option-occlusion"),
+    (await inSettings(page)).locator("#option-depth_steps"),
+    (await inSettings(page)).locator("#option-occlusion"),
   ];
   await expect(steps).toBeDisabled();
   await expect(steps).toHaveAccessibleDescription(/^No effect under best\./);
   await expect(occlusion).toBeEnabled();
-  await page.getByLabel("Preset").selectOption("paper");
+  await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
   await expect(steps).toBeEnabled();
   await expect(occlusion).toBeDisabled();
   await expect(occlusion).toHaveAccessibleDescription(/^No effect under paper\./);
@@ -194,11 +201,11 @@ test("options without effect under the preset are out of reach, and it is said w
 });
 
 test("what is said of the energy is what its line shows", async ({ opened: page }) => {
-  await page.getByLabel("Preset").selectOption("paper");
+  await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
   await page.getByRole("button", { name: "Step" }).click();
   const text = page.locator("#energy-text");
   await expect(text).toHaveText(/^[\d.\s]+ after one pass\. /, { timeout: PATIENCE });
-  await page.getByRole("button", { name: "Curve 1", exact: true }).click();
+  await (await inResult(page)).getByRole("button", { name: "Curve 1", exact: true }).click();
   await page.keyboard.press("Shift+ArrowRight");
   await until(page, ({ report }) => report!.energy.total !== report!.history[0]);
   // Curves elsewhere: the number of the pass before is that of another sum.
@@ -214,7 +221,7 @@ test("reset goes back to the drawn curves, and running again starts over", async
   await page.getByRole("button", { name: "Reset" }).click();
   await until(page, (state) => !state.started && state.report?.iterations === 0);
   expect((await look(page)).print).toBe(before.print);
-  await expect(page.locator("#energy-panel")).toBeHidden();
+  await expect((await inResult(page)).locator("#energy-panel")).toBeHidden();
   await runPasses(page, 1);
   expect(await passes(page)).toBeGreaterThan(0);
 });
@@ -248,8 +255,8 @@ test("numbers stand beside each region, and scores where the truth is known", as
 test("what belongs to the default preset is shown, and can be turned off while it runs", async ({
   opened: page,
 }) => {
-  await page.getByText("Weights and choices").click();
-  const levers = page.locator("#options input[type=checkbox]:not([id$=-auto])");
+  await inSettings(page);
+  const levers = page.locator("#panel-settings .option input[type=checkbox]:not([id$=-auto])");
   expect(await levers.count()).toBeGreaterThanOrEqual(4);
   for (const lever of await levers.all()) {
     await expect(lever).toBeVisible();
@@ -257,16 +264,16 @@ test("what belongs to the default preset is shown, and can be turned off while i
   }
   await page.getByRole("button", { name: "Run" }).click();
   await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
-  await page.getByLabel("Brightness change").uncheck();
-  await page.locator("#option-occlusion").uncheck();
+  await (await inSettings(page)).getByLabel("Brightness change").uncheck();
+  await (await inSettings(page)).locator("#option-occlusion").uncheck();
   await goesOn(page);
   await expect(page.locator("#message")).toBeHidden();
-  await page.getByRole("button", { name: "Back to the preset" }).click();
-  await expect(page.locator("#option-occlusion")).toBeChecked();
+  await (await inSettings(page)).getByRole("button", { name: "Back to the preset" }).click();
+  await expect((await inSettings(page)).locator("#option-occlusion")).toBeChecked();
 });
 
 test("the paper's preset is one choice away, also while it runs", async ({ opened: page }) => {
-  const preset = page.getByLabel("Preset");
+  const preset = (await inSettings(page)).getByLabel("Preset");
   await expect(preset).toHaveValue("best");
   await runPasses(page, 2);
   await page.getByRole("button", { name: "Run" }).click();
@@ -285,9 +292,9 @@ test("the paper's preset is one choice away, also while it runs", async ({ opene
 });
 
 test("a weight can be changed while it runs", async ({ opened: page }) => {
-  await page.getByText("Weights and choices").click();
+  await inSettings(page);
   await runLong(page);
-  await page.getByLabel("Diffusion").selectOption("isotropic");
+  await (await inSettings(page)).getByLabel("Diffusion").selectOption("isotropic");
   await until(page, (state) => state.options["diffusion"] === "isotropic");
   await goesOn(page);
   await expect(page.locator("#message")).toBeHidden();
@@ -311,7 +318,7 @@ test("a pause asked for before the run has begun is not lost", async ({ opened: 
 test("a run can be cancelled while a refused value stands in its field", async ({
   opened: page,
 }) => {
-  const focal = page.getByLabel("Focal length f, px");
+  const focal = (await inSettings(page)).getByLabel("Focal length f, px");
   await runLong(page);
   await focal.fill("0");
   await focal.press("Enter");
@@ -341,7 +348,7 @@ test("a value put right before the wrong one is refused is the one that holds", 
   // Another focal length takes what was found with it.
   await until(page, (state) => !state.started && state.report?.iterations === 0);
   await expect(page.locator("#status")).toHaveText("Ready");
-  await expect(page.locator("#scores-panel")).toBeHidden();
+  await expect((await inResult(page)).locator("#scores-panel")).toBeHidden();
   await expect(page.getByRole("button", { name: "Reset" })).toBeDisabled();
   await expect(message(page)).toBeHidden();
 });
@@ -369,11 +376,11 @@ test("once it runs it does not seem paused, whatever was still being drawn", asy
 test("a refused value leaves the run alone, and its sentence goes with it", async ({
   opened: page,
 }) => {
-  await page.getByText("Weights and choices").click();
+  await inSettings(page);
   await runLong(page);
   // Files of one pass would be gone with the next.
-  await expect(page.getByRole("button", { name: "Result files" })).toBeDisabled();
-  const epsilon = page.locator("#option-epsilon");
+  await expect((await inResult(page)).getByRole("button", { name: "Result files" })).toBeDisabled();
+  const epsilon = (await inSettings(page)).locator("#option-epsilon");
   const good = await epsilon.inputValue();
   await epsilon.fill("99");
   await epsilon.press("Enter");
@@ -384,7 +391,7 @@ test("a refused value leaves the run alone, and its sentence goes with it", asyn
   await epsilon.press("Enter");
   await expect(page.locator("#message")).toBeHidden();
   await pauseRun(page);
-  const focal = page.getByLabel("Focal length f, px");
+  const focal = (await inSettings(page)).getByLabel("Focal length f, px");
   await focal.fill("-5");
   await focal.press("Enter");
   await expect(page.locator("#message")).toContainText("focal length is -5");

@@ -5,7 +5,18 @@ import { readFile } from "node:fs/promises";
 import type { Page } from "@playwright/test";
 
 import type { State } from "../../www/store";
-import { chooseView, drawn, expect, look, read, ready, solve, test, until } from "./helpers";
+import {
+  chooseView,
+  drawn,
+  expect,
+  look,
+  read,
+  ready,
+  solve,
+  test,
+  until,
+  inResult,
+} from "./helpers";
 
 const FLAT = ["Depth", "Motion", "Anaglyph", "Labels", "Confidence", "Occlusion", "Compare"];
 
@@ -67,7 +78,7 @@ test("no picture stands under another's name, nor is taken away under it", async
 }) => {
   await chooseView(page, "Compare");
   const stage = page.locator("#stage");
-  const take = page.getByRole("button", { name: "This view as PNG" });
+  const take = (await inResult(page)).getByRole("button", { name: "This view as PNG" });
   await expect(stage).toHaveAttribute("aria-busy", "false");
   // Looked at before the worker can have answered.
   const [busy, unavailable, captions] = await page.evaluate(() => {
@@ -97,7 +108,7 @@ test("the depth slider of a region changes depth, not its outline", async ({ ope
   await until(page, (state) => state.pictures.every(Boolean) && state.pictures.length === 1);
   await drawn(page);
   const depth = await look(page);
-  await page.locator("#scale-1").fill("1.5");
+  await (await inResult(page)).locator("#scale-1").fill("1.5");
   await expect
     .poll(async () => (await look(page)).print, { timeout: 30_000 })
     .not.toBe(depth.print);
@@ -109,11 +120,11 @@ test("depth factors start anew with another number of regions, as their sliders 
   opened: page,
 }) => {
   await solve(page);
-  await page.locator("#scale-0").fill("2");
+  await (await inResult(page)).locator("#scale-0").fill("2");
   expect(await read(page, (state) => state.scales)).toEqual([4, 1, 1]);
-  await page.getByRole("button", { name: "Delete curve 1" }).click();
+  await (await inResult(page)).getByRole("button", { name: "Delete curve 1" }).click();
   expect(await read(page, (state) => state.scales)).toEqual([]);
-  await expect(page.locator("#scale-0")).toHaveValue("0");
+  await expect((await inResult(page)).locator("#scale-0")).toHaveValue("0");
 });
 
 test("the relief stands, turns by keyboard and mouse, and takes plaster", async ({
@@ -169,14 +180,14 @@ test("the relief stands, turns by keyboard and mouse, and takes plaster", async 
 async function saved(page: Page): Promise<Buffer> {
   const [picture] = await Promise.all([
     page.waitForEvent("download"),
-    page.getByRole("button", { name: "This view as PNG" }).click(),
+    (await inResult(page)).getByRole("button", { name: "This view as PNG" }).click(),
   ]);
   return readFile(await picture.path());
 }
 
 test("curves that are only drawn are on the picture of their view", async ({ opened: page }) => {
   const both = await saved(page);
-  await page.getByRole("button", { name: "Delete curve 1" }).click();
+  await (await inResult(page)).getByRole("button", { name: "Delete curve 1" }).click();
   await drawn(page);
   expect((await saved(page)).equals(both)).toBe(false);
 });
@@ -203,10 +214,10 @@ test("the view and the results can be taken away", async ({ opened: page }) => {
   await solve(page);
   const [picture] = await Promise.all([
     page.waitForEvent("download"),
-    page.getByRole("button", { name: "This view as PNG" }).click(),
+    (await inResult(page)).getByRole("button", { name: "This view as PNG" }).click(),
   ]);
   expect(picture.suggestedFilename()).toBe("relievo-blocks-curves.png");
-  await page.getByRole("button", { name: "Result files" }).click();
+  await (await inResult(page)).getByRole("button", { name: "Result files" }).click();
   const links = page.locator("#files a");
   await expect(links.first()).toBeVisible({ timeout: 30_000 });
   const names = await links.evaluateAll((all) => all.map((a) => (a as HTMLAnchorElement).download));
@@ -252,7 +263,7 @@ test("compared depth has the truth's colours whatever unit a region has", async 
   const first = await apart();
   expect(first.share).toBeGreaterThan(0.05);
   expect(first.apart).toBeLessThan(16);
-  await page.locator("#scale-1").fill("2");
+  await (await inResult(page)).locator("#scale-1").fill("2");
   await drawn(page);
   await ready(page);
   expect((await apart()).apart).toBeCloseTo(first.apart, 1);

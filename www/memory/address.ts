@@ -20,7 +20,10 @@ export function mountAddress(): void {
   // Links within the page scroll, and say nothing of pairs.
   addEventListener("popstate", () => void follow());
   store.watch(
-    ({ source, view, opening, frames, playing }) => [source, view, opening, frames, playing],
+    ({ source, view, opening, frames, playing, lessonStep }) => [
+      ...[source, view, opening, frames, playing],
+      lessonStep,
+    ],
     ({ source, view, opening, playing }) => {
       if (source && !opening && !playing) void tell(source, view);
     },
@@ -35,8 +38,9 @@ export function mountAddress(): void {
 }
 
 async function tell(source: Source, view: string): Promise<void> {
-  const address = addressOf(await nameOf(source), view);
+  const own = addressOf(await nameOf(source), view);
   const { state } = store;
+  const address = state.lessonStep ?? own;
   // Something else may have been opened while the name was made.
   if (state.source !== source || state.view !== view || address === shown) return;
   const first = shown === "";
@@ -45,24 +49,42 @@ async function tell(source: Source, view: string): Promise<void> {
   else history.pushState(null, "", address);
 }
 
+type Opening = (parts: string[]) => Promise<boolean>;
+
+/** What opens addresses that are no pairs, by their first part. */
+const places = new Map<string, Opening>();
+
+/** Has addresses `#name/…` opened by somebody else. */
+export function onPlace(name: string, opening: Opening): void {
+  places.set(name, opening);
+}
+
 /** While an address is followed, what it leads to makes no new one. */
 let following = false;
 
 /** Opens what the address asks for; whether it asked for anything that is there. */
 export async function follow(): Promise<boolean> {
   const { catalogues } = store.state;
-  const target = catalogues && targetOf(location.hash, catalogues);
-  if (!target) return false;
+  const [place = "", ...parts] = location.hash.slice(1).split("/");
+  const opening = places.get(place);
+  const target = catalogues && !opening && targetOf(location.hash, catalogues);
+  if (!opening && !target) return false;
   following = true;
   try {
-    return await lead(target);
+    if (opening) {
+      shown = location.hash;
+      return await opening(parts);
+    }
+    store.update({ lessonStep: null });
+    return target ? await lead(target) : false;
   } finally {
     // Names are made in between.
     setTimeout(() => (following = false), 50);
   }
 }
 
-async function lead(target: Target): Promise<boolean> {
+/** Opens what a link asks for; whether it is there. */
+export async function lead(target: Target): Promise<boolean> {
   const { name, view, setting, useless } = target;
   const { source, catalogues } = store.state;
   const isOpen = source !== null && (await nameOf(source)) === name;

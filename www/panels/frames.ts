@@ -13,7 +13,7 @@ const ACCEPT = "image/*,video/*,.pnm,.pgm,.ppm,.pbm,.pam,.mpo,.heic,.heif,.jxl,.
 export function mountFrames(): void {
   store.watch(({ frames, slots, names, source }) => [frames, slots, names, source], render);
   mountSources();
-  mountLink();
+  mountPopover();
   mountDrop();
   document.addEventListener("paste", (event) => {
     const files = [...(event.clipboardData?.files ?? [])];
@@ -23,21 +23,18 @@ export function mountFrames(): void {
   });
 }
 
-/** The link in the masthead moves the column of panels where there is one: the window would hide the masthead. */
-function mountLink(): void {
-  const link = document.querySelector<HTMLAnchorElement>('a[href="#frames-panel"]');
-  link?.addEventListener("click", (event) => {
-    event.preventDefault();
-    const panel = byId("frames-panel");
-    const column = panel.closest<HTMLElement>(".panels")!;
-    if (column.scrollHeight > column.clientHeight) {
-      const top = panel.getBoundingClientRect().top - column.getBoundingClientRect().top;
-      column.scrollBy({ top });
-    } else {
-      panel.scrollIntoView();
-    }
-    byId("film-file").focus({ preventScroll: true });
-  });
+/** Stays open while a frame is missing, and goes once both are on the stage. */
+function mountPopover(): void {
+  const popover = byId("frames-panel");
+  store.watch(
+    ({ slots, source }) => [slots, source],
+    (state) => {
+      const [first, second] = state.slots;
+      const missing = (first === null) !== (second === null);
+      // A sequence or a pair that has been opened needs no more.
+      if (missing || inUse(state) || (!first && !second)) popover.togglePopover(missing);
+    },
+  );
 }
 
 /** Where frames come from beside the two places: a clip or many pictures, the camera, the film at hand. */

@@ -1,5 +1,6 @@
 /**
- * The form for the solver's options, made from the core's own list.
+ * The form for the solver's options, made from the core's own list: the preset and the main ones first, the others
+ * under the term of (7) that they belong to.
  *
  * The store keeps only what was changed; everything else is the preset's. A weight that can be chosen
  * from the data shows what was chosen.
@@ -60,10 +61,23 @@ function build({ catalogues }: Readonly<State>): void {
   const rows = catalogues.options.map((descriptor) => {
     const { element, show, reason } = field(descriptor);
     fields.push({ descriptor, show, reason });
-    return element;
+    return { descriptor, element };
   });
-  const details = make("details", {}, make("summary", {}, "Weights and choices"), ...rows);
-  byId("options").replaceChildren(...(preset ? [preset] : []), details);
+  const rest = catalogues.options.filter(({ main }) => !main);
+  const rowsWhere = (holds: (descriptor: OptionEntry) => boolean) =>
+    rows.filter(({ descriptor }) => holds(descriptor)).map(({ element }) => element);
+  byId("options").replaceChildren(...(preset ? [preset] : []), ...rowsWhere(({ main }) => main));
+  const groups = [...new Set(rest.map(({ group }) => group))];
+  byId("option-groups").replaceChildren(
+    ...groups.map((name) =>
+      make(
+        "details",
+        {},
+        make("summary", {}, name),
+        ...rowsWhere(({ main, group }) => !main && group === name),
+      ),
+    ),
+  );
 }
 
 function presetField(presets: PresetEntry[]): HTMLElement | null {
@@ -81,7 +95,8 @@ function field(descriptor: OptionEntry) {
   const id = `option-${key}`;
   const head = make("div", { class: "option-head" }, make("label", { for: id }, label));
   const help = make("p", { class: "note", id: `${id}-help` }, meaning, " ");
-  if (term) help.append(make("span", { class: "term" }, term));
+  // What is no term of an equation is said by the heading.
+  if (term.includes("(")) help.append(make("span", { class: "term" }, term));
   const reason = make("strong", { class: "reason" });
   help.prepend(reason);
   const element = make("div", { class: "option" }, head);

@@ -6,7 +6,7 @@ import { number } from "../format";
 import { redo, undo } from "../memory/history";
 import { look } from "../session";
 import { store, type Showing, type State, type Tool, type ViewParams } from "../store";
-import { available, viewOf, type Setting } from "../views";
+import { available, GROUPS, groupOf, viewOf, type Setting } from "../views";
 
 export function mountViewbar(): void {
   store.watch(({ catalogues, truth }) => [catalogues, truth], buildViews);
@@ -18,7 +18,7 @@ export function mountViewbar(): void {
     },
   );
   store.watch(
-    ({ view, viewParams }) => [view, viewParams],
+    ({ view, viewParams, split, ranges }) => [view, viewParams, split?.left, split?.right, ranges],
     () => void look(),
   );
   // One setting may set another.
@@ -37,15 +37,38 @@ export function mountViewbar(): void {
   mountShowing();
 }
 
+/** The view that was looked at last in a group of several. */
+const lastIn = new Map<string, string>();
+
 function buildViews(state: Readonly<State>): void {
-  const place = byId("views");
-  place.querySelectorAll("label").forEach((label) => label.remove());
-  for (const { id, label } of available(state)) {
-    const input = make("input", { type: "radio", name: "view", value: id, id: `view-${id}` });
-    input.checked = id === store.state.view;
-    input.addEventListener("change", () => store.update({ view: id }));
-    place.append(make("label", {}, input, make("span", {}, label)));
+  const there = new Set(available(state).map(({ id }) => id));
+  const rows = [byId("views"), byId("views-within")] as const;
+  for (const row of rows) row.querySelectorAll("label").forEach((label) => label.remove());
+  for (const group of GROUPS) {
+    const views = group.views.filter((id) => there.has(id));
+    if (views.length === 0) continue;
+    const single = group.views.length === 1;
+    rows[0].append(
+      segment("group", single ? `view-${group.id}` : `group-${group.id}`, group.label, () =>
+        store.update({ view: lastIn.get(group.id) ?? views[0]! }),
+      ),
+    );
+    if (single) continue;
+    for (const id of views) {
+      const label = segment("view", `view-${id}`, viewOf(id).label, () =>
+        store.update({ view: id }),
+      );
+      label.dataset["group"] = group.id;
+      rows[1].append(label);
+    }
   }
+  showView(store.state);
+}
+
+function segment(name: string, id: string, text: string, choose: () => void): HTMLLabelElement {
+  const input = make("input", { type: "radio", name, value: id, id });
+  input.addEventListener("change", choose);
+  return make("label", {}, input, make("span", {}, text));
 }
 
 /** Scrolls the row of views, and nothing else, to the one that is chosen: a narrower window may have cut it off. */
@@ -60,12 +83,23 @@ function keepChosenInSight(): void {
 
 function showView(state: Readonly<State>): void {
   const view = viewOf(state.view);
-  const radio = document.getElementById(`view-${view.id}`) as HTMLInputElement | null;
-  if (radio) radio.checked = true;
+  const group = groupOf(view.id);
+  lastIn.set(group.id, view.id);
+  const within = byId("views-within");
+  within.hidden = group.views.length === 1;
+  for (const label of within.querySelectorAll("label")) {
+    label.hidden = label.dataset["group"] !== group.id;
+  }
+  for (const id of [`view-${view.id}`, `group-${group.id}`]) {
+    const radio = document.getElementById(id) as HTMLInputElement | null;
+    if (radio) radio.checked = true;
+  }
   byId("stage").dataset["view"] = view.id;
   const editable = view.id === "curves";
   byId("tools").hidden = !editable;
-  byId("overlay").hidden = !editable;
+  byId("overlay").hidden = view.id === "relief";
+  byId("overlay").ariaLabel = editable ? "Curves on the frame" : `${view.label}, pixel by pixel`;
+  byId("zoom").hidden = view.id === "relief";
   byId("showing").hidden = !editable;
   byId("relief").hidden = view.id !== "relief";
   // Not only cleared: some browsers go on showing a canvas on which nothing but clearing happens.

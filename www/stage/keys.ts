@@ -1,9 +1,9 @@
 /**
  * The stage and the page by keyboard.
  *
- * On the stage: arrows move the selected curve (Shift: ten pixels), + and − resize it, Delete removes
- * it, N and P select the next and the last, C adds a circle at the centre. With a drawing tool the
- * arrows move a crosshair, Enter sets a centre or corner, Enter on the first corner closes, Escape
+ * On the stage, all views but 3-D: arrows move a crosshair that reads the pixel under it, + and −, 0 and 1 zoom
+ * (`zoom.ts`). With curves: arrows move the selected curve (Shift: ten pixels), + and − resize it, Delete removes
+ * it, N and P select the next and the last, C adds a circle at the centre. With a drawing tool Enter sets a centre or corner, Enter on the first corner closes, Escape
  * gives up. Everywhere: Ctrl Z and Ctrl Shift Z undo and redo.
  */
 
@@ -21,6 +21,7 @@ import {
   setCrosshair,
   setSketch,
 } from "./tools";
+import { bringIn, zoomKey } from "./zoom";
 
 const ARROWS: Record<string, Point> = {
   ArrowLeft: [-1, 0],
@@ -34,11 +35,13 @@ const GROW = 1.08;
 
 export function mountKeys(): void {
   byId("overlay").addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || store.state.view !== "curves") return;
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
     // A curve in the pointer's hand is not the keyboard's.
     if (holding()) return;
-    const used = store.state.tool === "select" ? editing(event) : drawing(event);
-    if (used) event.preventDefault();
+    const { view, tool } = store.state;
+    const edits = view === "curves";
+    const used = edits && (tool === "select" ? editing(event) : drawing(event));
+    if (used || pointing(event) || zoomKey(event.key)) event.preventDefault();
   });
   byId("overlay").addEventListener("blur", () => setCrosshair(null));
   document.addEventListener("keydown", (event) => {
@@ -66,16 +69,17 @@ function editing(event: KeyboardEvent): boolean {
     case "+":
     case "=":
       if (shape) replace(selected!, resized(shape, GROW));
-      return true;
+      return shape !== undefined;
     case "-":
     case "_":
       if (shape) replace(selected!, resized(shape, 1 / GROW));
-      return true;
+      return shape !== undefined;
     case "Delete":
     case "Backspace":
       if (selected !== null) remove(selected);
       return true;
     case "Escape":
+      if (selected === null) return false;
       select(null);
       return true;
     case "n":
@@ -95,18 +99,40 @@ function editing(event: KeyboardEvent): boolean {
   }
 }
 
+/** The crosshair reads what is under it. */
+function pointing(event: KeyboardEvent): boolean {
+  if (event.key === "Escape") {
+    const there = currentCrosshair() !== null;
+    setCrosshair(null);
+    return there;
+  }
+  const next = stepped(event);
+  if (next) setCrosshair(next.map(Math.round) as Point);
+  return next !== null;
+}
+
+/** Where an arrow key takes the crosshair, which begins in the middle. */
+function stepped({ key, shiftKey }: KeyboardEvent): Point | null {
+  const { width, height } = store.state;
+  const here: Point = currentCrosshair() ?? [(width - 1) / 2, (height - 1) / 2];
+  const arrow = ARROWS[key];
+  if (!arrow) return null;
+  const far = shiftKey ? 10 : 1;
+  const within = (value: number, size: number) => Math.min(size - 1, Math.max(0, value));
+  const next: Point = [
+    within(here[0] + arrow[0] * far, width),
+    within(here[1] + arrow[1] * far, height),
+  ];
+  bringIn(next);
+  return next;
+}
+
 function drawing(event: KeyboardEvent): boolean {
   const { width, height, tool } = store.state;
   const here: Point = currentCrosshair() ?? [(width - 1) / 2, (height - 1) / 2];
-  const arrow = ARROWS[event.key];
   const sketch = currentSketch();
-  if (arrow) {
-    const far = event.shiftKey ? 10 : 1;
-    const within = (value: number, size: number) => Math.min(size - 1, Math.max(0, value));
-    const next: Point = [
-      within(here[0] + arrow[0] * far, width),
-      within(here[1] + arrow[1] * far, height),
-    ];
+  const next = stepped(event);
+  if (next) {
     setCrosshair(next);
     if (sketch) setSketch({ ...sketch, tip: next });
     return true;

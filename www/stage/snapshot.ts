@@ -12,10 +12,18 @@ export async function stagePicture(): Promise<Blob | null> {
   if (layout.length === 0) return null;
   const captions = captionsOf(state);
   const above = captions.length > 0 ? CAPTION_HEIGHT : 0;
-  const left = Math.min(...layout.map((pane) => pane.left));
-  const top = Math.min(...layout.map((pane) => pane.top)) - above;
-  const right = Math.max(...layout.map((pane) => pane.left + state.width * pane.scale));
-  const bottom = Math.max(...layout.map((pane) => pane.top + state.height * pane.scale));
+  const { clientWidth, clientHeight } = byId("stage");
+  // As far as it is seen, where the picture is magnified.
+  const left = Math.max(0, Math.min(...layout.map((pane) => pane.left)));
+  const top = Math.max(0, Math.min(...layout.map((pane) => pane.top)) - above);
+  const right = Math.min(
+    clientWidth,
+    Math.max(...layout.map((pane) => pane.left + state.width * pane.scale)),
+  );
+  const bottom = Math.min(
+    clientHeight,
+    Math.max(...layout.map((pane) => pane.top + state.height * pane.scale)),
+  );
 
   const layers = ["picture", "overlay"].map((id) => byId<HTMLCanvasElement>(id));
   const dense = layers[0]!.width / layers[0]!.clientWidth;
@@ -27,7 +35,9 @@ export async function stagePicture(): Promise<Blob | null> {
   context.fillStyle = backgroundColor;
   context.fillRect(0, 0, width, height);
   for (const layer of layers) {
-    if (!layer.hidden) context.drawImage(layer, -left * dense, -top * dense);
+    // The other views have nothing on it but a crosshair.
+    if (layer.id === "picture" || state.view === "curves")
+      context.drawImage(layer, -left * dense, -top * dense);
   }
 
   context.setTransform(dense, 0, 0, dense, -left * dense, -top * dense);
@@ -36,7 +46,8 @@ export async function stagePicture(): Promise<Blob | null> {
   context.textBaseline = "middle";
   for (const [i, text] of captions.entries()) {
     const pane = layout[i]!;
-    context.fillText(text, pane.left, pane.top - CAPTION_HEIGHT / 2, state.width * pane.scale);
+    const { left, top, width } = pane.cell;
+    context.fillText(text, left, top - CAPTION_HEIGHT / 2, width);
   }
   return new Promise((done) => copy.toBlob(done));
 }

@@ -6,13 +6,25 @@
  */
 
 import { byId, make } from "../dom";
-import { store, type State } from "../store";
+import { store, type Split, type State } from "../store";
 import { asks, awaited, captionsOf, viewOf } from "../views";
 import type { Contour } from "../worker/protocol";
 import { SharpCanvas } from "./canvas";
 import { drawShapes } from "./outline";
-import { CAPTION_HEIGHT, panes, setPanes, stagePane, type Box, type Pane } from "./place";
+import { dividerAt, placeDivider } from "./divider";
+import {
+  CAPTION_HEIGHT,
+  magnified,
+  panes,
+  setPanes,
+  stagePane,
+  type Box,
+  type Cell,
+  type Pane,
+} from "./place";
+import { sideOf } from "./sides";
 import { drawSketch, sketchChanged } from "./tools";
+import { presentZoom, showZoom, zoomChanged } from "./zoom";
 
 const FLICKER_MS = 450;
 
@@ -22,14 +34,14 @@ const lower = new SharpCanvas(byId<HTMLCanvasElement>("picture"), paintPictures)
 const upper = new SharpCanvas(byId<HTMLCanvasElement>("overlay"), (context, { width, height }) => {
   const { state } = store;
   context.clearRect(0, 0, width, height);
-  if (state.view !== "curves" || !state.frames) return;
-  drawShapes(context, stagePane(), state);
+  if (!state.frames) return;
+  if (state.view === "curves") drawShapes(context, stagePane(), state);
   drawSketch(context, stagePane());
 });
 
 export function mountStage(): void {
   store.watch(
-    ({ frames, pictures, pictured, contours, started, view, viewParams, catalogues }) => [
+    ({ frames, pictures, pictured, contours, started, view, viewParams, catalogues, split }) => [
       frames,
       pictures,
       pictured,
@@ -38,6 +50,7 @@ export function mountStage(): void {
       view,
       viewParams,
       catalogues,
+      split,
     ],
     () => lower.invalidate(),
   );
@@ -53,8 +66,13 @@ export function mountStage(): void {
     () => upper.invalidate(),
   );
   sketchChanged(() => upper.invalidate());
+  zoomChanged(() => {
+    lower.invalidate();
+    upper.invalidate();
+  });
   store.watch(
-    ({ view, pictured, catalogues, width, viewParams }) => [
+    ({ view, pictured, catalogues, width, viewParams, split }) => [
+      split === null,
       view,
       pictured,
       catalogues,
@@ -64,7 +82,8 @@ export function mountStage(): void {
     caption,
   );
   store.watch(
-    ({ frames, view, viewParams, pictured, running }) => [
+    ({ frames, view, viewParams, pictured, running, split }) => [
+      split,
       frames,
       view,
       viewParams,
@@ -86,28 +105,75 @@ function paintPictures(context: CanvasRenderingContext2D, size: Box): void {
   context.clearRect(0, 0, size.width, size.height);
   if (frame.width === 0 || view.id === "relief") return;
   const captioned = captionsOf(state).length > 0;
-  const layout = panes(size, frame, Math.max(1, wanted), captioned ? CAPTION_HEIGHT : 0);
+  const count = state.split ? 1 : Math.max(1, wanted);
+  const layout = panes(size, frame, count, captioned ? CAPTION_HEIGHT : 0).map((pane) =>
+    magnified(pane, frame, presentZoom()),
+  );
   setPanes(layout);
   placeCaptions(layout);
-  context.imageSmoothingQuality = "medium";
-  const shown = state.frames?.[flickerSecond ? 1 : 0];
+  showZoom();
+  if (state.split) return paintSides(context, size, state, state.split);
   for (const [i, pane] of layout.entries()) {
-    const picture = wanted === 0 ? shown : state.pictures[i];
-    // A picture that has been replaced is empty.
-    if (!picture?.width) continue;
-    context.imageSmoothingEnabled = !view.crisp;
-    context.drawImage(
-      picture,
-      pane.left,
-      pane.top,
-      frame.width * pane.scale,
-      frame.height * pane.scale,
-    );
-    const colours = state.catalogues?.colours ?? [];
-    if (view.curves && (view.id === "curves" || state.viewParams.curvesOnTop)) {
-      drawContours(context, pane, visibleContours(state), colours);
-    }
+    const picture = wanted === 0 ? shownFrame(state) : state.pictures[i];
+    context.save();
+    if (count > 1) clipTo(context, pane.cell);
+    paint(context, pane, state, picture);
+    context.restore();
   }
+}
+
+const shownFrame = ({ frames }: Readonly<State>) => frames?.[flickerSecond ? 1 : 0];
+
+/** One picture in its pane, with the curves that belong on it. */
+function paint(
+  context: CanvasRenderingContext2D,
+  pane: Pane,
+  state: Readonly<State>,
+  picture: ImageBitmap | null | undefined,
+): void {
+  // A picture that has been replaced is empty.
+  if (!picture?.width) return;
+  const view = viewOf(state.view);
+  const { width, height } = state;
+  context.imageSmoothingQuality = "medium";
+  // Under a zoom a pixel is a square; else it is a sample.
+  context.imageSmoothingEnabled = !view.crisp && !(presentZoom().factor > 1 && pane.scale >= 2);
+  context.drawImage(picture, pane.left, pane.top, width * pane.scale, height * pane.scale);
+  if (view.curves && (view.id === "curves" || state.viewParams.curvesOnTop)) {
+    drawContours(context, pane, visibleContours(state), state.catalogues?.colours ?? []);
+  }
+}
+
+/** Both sides of the divider, each up to it. */
+function paintSides(
+  context: CanvasRenderingContext2D,
+  size: Box,
+  state: Readonly<State>,
+  { left, right, at }: Split,
+): void {
+  placeDivider();
+  const x = dividerAt(at);
+  let next = 0;
+  const pictures = [left, right].map((id) => {
+    if (sideOf(id).picture) return state.pictures[next++];
+    return state.frames?.[id === "frame second" ? 1 : 0];
+  });
+  const parts = [
+    { left: 0, top: 0, width: x, height: size.height },
+    { left: x, top: 0, width: size.width - x, height: size.height },
+  ];
+  for (const [i, part] of parts.entries()) {
+    context.save();
+    clipTo(context, part);
+    paint(context, stagePane(), state, pictures[i]);
+    context.restore();
+  }
+}
+
+function clipTo(context: CanvasRenderingContext2D, { left, top, width, height }: Cell): void {
+  context.beginPath();
+  context.rect(left, top, width, height);
+  context.clip();
 }
 
 /** Before anything was computed the contours are the drawn curves, which the upper canvas shows. */
@@ -158,8 +224,9 @@ function placeCaptions(layout: Pane[]): void {
   for (const [i, element] of captionElements.entries()) {
     const pane = layout[i];
     if (!pane) continue;
-    element.style.transform = `translate(${pane.left}px, ${pane.top - CAPTION_HEIGHT}px)`;
-    element.style.maxWidth = `${store.state.width * pane.scale}px`;
+    const { left, top, width } = pane.cell;
+    element.style.transform = `translate(${left}px, ${top - CAPTION_HEIGHT}px)`;
+    element.style.maxWidth = `${width}px`;
   }
 }
 

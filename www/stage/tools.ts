@@ -36,12 +36,15 @@ export interface Sketch {
 }
 
 let sketch: Sketch | null = null;
+/** The same before the last press, which may turn out to have been the first of two fingers. */
+let before: Sketch | null = null;
 /** The keyboard's pointer, in pixels of the frame; `null` while the mouse is used. */
 let crosshair: Point | null = null;
-let changed: () => void = () => {};
+const listeners: (() => void)[] = [];
+const changed = () => listeners.forEach((listener) => listener());
 
 export const sketchChanged = (listener: () => void): void => {
-  changed = listener;
+  listeners.push(listener);
 };
 
 export const currentSketch = (): Sketch | null => sketch;
@@ -55,6 +58,12 @@ export function setSketch(next: Sketch | null): void {
 export function setCrosshair(next: Point | null): void {
   crosshair = next;
   changed();
+}
+
+/** Takes the last press back. */
+export function abandon(): void {
+  giveUp();
+  setSketch(before);
 }
 
 /** Turns the sketch into a curve, if it encloses anything. */
@@ -96,15 +105,6 @@ export function mountTools(): void {
     giveUp();
     if (sketch?.tool !== "polygon") setSketch(null);
   });
-  // A finger that draws or has taken hold of a curve (`press` comes first) does not scroll the page.
-  overlay.addEventListener(
-    "touchstart",
-    (event) => {
-      if (event.touches.length > 1 || store.state.view !== "curves") return;
-      if (store.state.tool !== "select" || holding()) event.preventDefault();
-    },
-    { passive: false },
-  );
   store.watch(
     ({ tool, view, source }) => [tool, view, source],
     () => setSketch(null),
@@ -112,6 +112,7 @@ export function mountTools(): void {
 }
 
 function press(place: Point, pointer: Pointer): void {
+  before = sketch;
   const { tool, selected } = store.state;
   const pixel = toFrame(stagePane(), place);
   if (tool === "select") {

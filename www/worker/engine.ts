@@ -24,10 +24,12 @@ import type {
   Found,
   Followed,
   FrameFile,
+  Legend,
   MeshData,
   Opened,
   Part,
   PictureRequest,
+  Probe,
   Report,
   ResultFile,
   ScoreTable,
@@ -272,6 +274,22 @@ export class Engine {
     }
   }
 
+  legend({ of, kind, params, compared }: PictureRequest): Legend | null {
+    const { scene } = this.present().owned;
+    const given = JSON.stringify(params);
+    const colours = compared && scene ? scene.sameColours(given) : given;
+    return JSON.parse(this.drawer(of).legend(kind, colours)) as Legend | null;
+  }
+
+  /** What is found at a pixel, if anything is. */
+  probe(x: number, y: number, params: Record<string, unknown>): Probe | null {
+    const { solver } = this.present();
+    if (!this.started) return null;
+    return JSON.parse(
+      (this.restored?.kept ?? solver).probe(x, y, JSON.stringify(params)),
+    ) as Probe | null;
+  }
+
   private drawn({ of, kind, params, compared }: PictureRequest): Picture {
     const { owned, solver } = this.present();
     const { scene } = owned;
@@ -283,7 +301,10 @@ export class Engine {
     return this.drawer(of).view(kind, colours);
   }
 
-  private drawer(of: Whose): { view(kind: string, params: string): Picture } {
+  private drawer(of: Whose): {
+    view(kind: string, params: string): Picture;
+    legend(kind: string, params: string): string;
+  } {
     const { owned, solver } = this.present();
     switch (of) {
       case "found":

@@ -10,10 +10,12 @@ import type {
   Choice,
   Contour,
   Displacement,
+  Legend,
   Limits,
   OptionEntry,
   Options,
   PresetEntry,
+  Probe,
   Report,
   SceneEntry,
   ScoreTable,
@@ -27,8 +29,10 @@ export type {
   Contour,
   Displacement,
   Expected,
+  Legend,
   OptionEntry,
   PresetEntry,
+  Probe,
   RegionReport,
   Report,
   Scores,
@@ -157,6 +161,8 @@ export interface Progress {
   contours: Contour[];
   /** One per requested picture; `null` where the last one sent is still right. */
   pictures: (ImageBitmap | null)[];
+  /** What the colours of each stand for; `null` where they are no measure, or the last one sent is still right. */
+  legends: (Legend | null)[];
   mesh: MeshData | null;
   scores: ScoreTable | null;
   /** What is found so far, not compressed, where passes take so long that a view should not wait for the next. */
@@ -231,6 +237,8 @@ export interface Service {
    * `reset` it takes a `look` along.
    */
   run(setup: Setup, wanted: Wanted, pace: number): Promise<void>;
+  /** What is found at a pixel; `null` outside the frame, and until there is something. */
+  probe(x: number, y: number, params: Record<string, unknown>): Promise<Probe | null>;
   /** Another least time for a pass, while it runs. */
   pace(milliseconds: number): Promise<void>;
   pause(): Promise<void>;

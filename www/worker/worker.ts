@@ -153,9 +153,11 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
   if (found) transfer.push(found.buffer);
   const scores = engine.scores();
   const pictures: (ImageBitmap | null)[] = [];
+  const legends: Progress["legends"] = [];
   for (const request of wanted.pictures) {
     const picture = settled.has(request) ? null : await engine.picture(request, wanted.longest);
     if (picture) transfer.push(picture);
+    legends.push(picture && engine.legend(request));
     if (request.of !== "found") settled.add(request);
     pictures.push(picture);
   }
@@ -169,6 +171,7 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
       report,
       contours,
       pictures,
+      legends,
       mesh,
       scores,
       found,
@@ -266,6 +269,8 @@ const service: Service = {
       running = true;
       void loop();
     }),
+
+  probe: (x, y, params) => guard(() => engine.probe(x, y, params)),
 
   pace: (milliseconds) =>
     guard(() => {

@@ -38,6 +38,24 @@ fn its_gradient_is_its_own() {
 }
 
 #[test]
+fn four_at_once_are_what_each_is_by_itself() {
+    let spline = Spline::through(&wavy(40, 32));
+    let x = [7.3, 20.5, -0.4, 39.4];
+    let y = [9.8, 15.25, 3.0, 31.4];
+    let values = spline.at_four(x, y);
+    let [again, across, down] = spline.four_with_gradient(x, y);
+    for n in 0..4 {
+        let [value, gx, gy] = spline.with_gradient(x[n], y[n]);
+        for (four, one) in [(values, value), (again, value), (across, gx), (down, gy)] {
+            assert!((four[n] - one).abs() < 1e-3);
+        }
+    }
+    // What leads far out, or nowhere, is read somewhere.
+    let lost = [f32::INFINITY, -1e30, f32::NAN, 1e9];
+    assert!(spline.at_four(lost, lost).iter().all(|v| v.is_finite()));
+}
+
+#[test]
 fn between_pixels_it_is_near_the_wave_itself() {
     let spline = Spline::through(&wavy(64, 64));
     for i in 0..200 {

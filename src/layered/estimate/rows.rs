@@ -4,6 +4,7 @@
 
 use super::super::scale::Scale;
 use super::normal_equations::{BINS_PER_LEVEL, Support};
+use crate::frames::LANES;
 use crate::layered::view::View;
 
 /// One row of pixels.
@@ -100,22 +101,37 @@ impl Rows {
         let first = &scale.first.row(y)[left..left + n];
         let [px, py, _] = &self.place;
         let [gx, gy, _] = &mut self.lever;
-        for i in 0..n {
-            let (x, y) = (px[i] * f + cx, py[i] * f + cy);
-            if (labels[i] == support.label || offered[i] == support.label) && scale.contains(x, y) {
-                let [value, across, down] = scale.second.with_gradient(x, y);
-                let residual = value - first[i];
-                let bin = (residual.abs() * BINS_PER_LEVEL) as usize;
-                histogram[bin.min(last)] += 1;
-                self.residual[i] = residual;
-                gx[i] = across;
-                gy[i] = down;
-                self.weight[i] = 1.0;
+        for start in (0..n).step_by(LANES) {
+            let count = (n - start).min(LANES);
+            // Beyond the row's end the last pixel stands again.
+            let lanes = std::array::from_fn(|i| start + i.min(count - 1));
+            let to_x = lanes.map(|i| px[i] * f + cx);
+            let to_y = lanes.map(|i| py[i] * f + cy);
+            let belongs: [bool; LANES] = std::array::from_fn(|n| {
+                let i = lanes[n];
+                (labels[i] == support.label || offered[i] == support.label)
+                    && scale.contains(to_x[n], to_y[n])
+            });
+            let [value, across, down] = if belongs.contains(&true) {
+                scale.second.four_with_gradient(to_x, to_y)
             } else {
-                self.residual[i] = 0.0;
-                gx[i] = 0.0;
-                gy[i] = 0.0;
-                self.weight[i] = 0.0;
+                [[0.0; LANES]; 3]
+            };
+            for (n, i) in (start..start + count).enumerate() {
+                if belongs[n] {
+                    let residual = value[n] - first[i];
+                    let bin = (residual.abs() * BINS_PER_LEVEL) as usize;
+                    histogram[bin.min(last)] += 1;
+                    self.residual[i] = residual;
+                    gx[i] = across[n];
+                    gy[i] = down[n];
+                    self.weight[i] = 1.0;
+                } else {
+                    self.residual[i] = 0.0;
+                    gx[i] = 0.0;
+                    gy[i] = 0.0;
+                    self.weight[i] = 0.0;
+                }
             }
         }
     }

@@ -53,9 +53,9 @@ pub(crate) struct Outcome {
 #[derive(Default)]
 pub(crate) struct Estimator {
     band: Banded,
-    /// For each control point: the columns of the five motions, and the gradient.
-    cross: Vec<[f32; 6]>,
-    solved: Vec<[f32; 6]>,
+    /// For each control point: the columns of the five motions, and the gradient; eight numbers are two of SIMD's four.
+    cross: Vec<[f32; 8]>,
+    solved: Vec<[f32; 8]>,
     /// What a step started from.
     before: State,
 }
@@ -141,7 +141,7 @@ impl Estimator {
         let nodes = surface.rho.len();
         self.band.clear(nodes, surface.bandwidth());
         self.cross.clear();
-        self.cross.resize(nodes, [0.0; 6]);
+        self.cross.resize(nodes, [0.0; 8]);
         let rows = surface.rows - 1;
         for (n, cell) in equations.cells.iter().enumerate() {
             let corners = surface.corners(n / rows, n % rows);

@@ -11,6 +11,7 @@
 use super::super::region::Region;
 use super::super::scale::Scale;
 use super::memory::WINDOW;
+use crate::frames::{LANES, Spline};
 use crate::grid::Grid;
 use crate::window::Window;
 
@@ -43,10 +44,24 @@ pub(crate) fn rigid_residual(scale: &Scale, level: usize, region: &Region, out: 
         state.surface.row(level, y, window.left, &mut rho);
         let first = &scale.plain.row(y)[window.left..window.left + window.width];
         let out = &mut out.row_mut(y)[window.left..window.left + window.width];
-        for (n, rho) in rho.iter().enumerate() {
-            let [x, y] = view.target(window.left + n, y, *rho);
-            out[n] = if scale.contains(x, y) {
-                scale.plain_second.at(x, y) - first[n]
+        read_row(scale, &scale.plain_second, out, |n| {
+            view.target(window.left + n, y, rho[n])
+        });
+        out.iter_mut()
+            .zip(first)
+            .for_each(|(out, first)| *out -= first);
+    }
+}
+
+/// Reads a row of pixels off the second frame, each at its `target`: not a number where that is out of the frame.
+fn read_row(scale: &Scale, second: &Spline, out: &mut [f32], target: impl Fn(usize) -> [f32; 2]) {
+    for (start, out) in out.chunks_mut(LANES).enumerate() {
+        let last = out.len() - 1;
+        let places: [_; LANES] = std::array::from_fn(|n| target(LANES * start + n.min(last)));
+        let values = second.at_four(places.map(|p| p[0]), places.map(|p| p[1]));
+        for (out, (value, [x, y])) in out.iter_mut().zip(values.into_iter().zip(places)) {
+            *out = if scale.contains(x, y) {
+                value
             } else {
                 f32::NAN
             };
@@ -79,15 +94,15 @@ pub(crate) fn planar_cost(scale: &Scale, region: &Region, sigma: f32, out: &mut 
     for py in 0..scale.height {
         let y = (py as f32 - scale.camera.cy as f32) / f;
         let first = scale.first.row(py);
-        for (px, out) in out.row_mut(py).iter_mut().enumerate() {
+        let out = out.row_mut(py);
+        read_row(scale, &scale.second, out, |px| {
             let x = (px as f32 - scale.camera.cx as f32) / f;
             let (u, v) = region.flow.at(x, y);
-            let (to_x, to_y) = (px as f32 + u * f, py as f32 + v * f);
-            *out = if scale.contains(to_x, to_y) {
-                cost(scale.second.at(to_x, to_y) - first[px], most)
-            } else {
-                LEAVES * most
-            };
+            [px as f32 + u * f, py as f32 + v * f]
+        });
+        for (out, first) in out.iter_mut().zip(first) {
+            let cost = cost(*out - first, most);
+            *out = if cost.is_nan() { LEAVES * most } else { cost };
         }
     }
 }

@@ -1,0 +1,320 @@
+//! Regions that one rigid motion explains as well.
+//!
+//! After the search for motions, on the first scale, two explanations of a pair of regions are compared with what they
+//! cost apart, E/σ²:
+//!
+//! ```text
+//! one body      one motion and one surface over both, for regions that touch
+//! one scene     one motion, a surface for each: a region and the background, whatever their depths
+//! ```
+//!
+//! The motion of a scene is the background's own, or the one that matches of both agree on: a background of little relief
+//! does not tell its T alone. Where curves are looked for, pairs that lose no more than [`ALIKE`] by it are merged: first
+//! bodies, the pair that loses least first, then what is left with the background. Curves that are drawn stay, and it is
+//! noted: in noise, or where a body happens to move as the background would at another depth, whoever drew it knows better.
+
+use glam::DVec3;
+
+use super::estimate::{Free, NormalEquations, Outcome, State, Support, turn};
+use super::models::{Problem, free};
+use super::solver::Layered;
+use super::stages::STIFFNESS;
+use crate::camera::RigidMotion;
+use crate::grid::Grid;
+use crate::init::{Match, epipolar_motion, matches};
+use crate::motion_model::MotionModel;
+use crate::options::Options;
+use crate::window::Window;
+
+/// What one motion may cost more than two, in variances of the residual: what two motions are charged more.
+const ALIKE: f64 = 150.0;
+/// Gauss–Newton steps of a union at first, and then, if it is not far off.
+const STEPS: [usize; 2] = [3, 6];
+/// How many times too much is far off.
+const FAR: f64 = 6.0;
+/// Steps of a surface under a given motion.
+const DEPTH_STEPS: usize = 6;
+/// How many times nearer than the background, or farther, a part of the scene may be on the mean.
+const NEARER: f64 = 4.5;
+/// Pairs of neighbouring pixels from which on two regions touch.
+const TOUCH: usize = 6;
+
+impl Layered {
+    /// Merges what is one, where nobody has said that it is two.
+    pub(super) fn merge_regions(&mut self, options: &Options) {
+        let count = self.regions.len();
+        let mut lost = vec![None; count * count];
+        while let Some((into, from)) = self.most_alike(&mut lost, options) {
+            self.merge(into, from, options);
+            for k in 0..count {
+                for other in [into, from] {
+                    lost[k.min(other) * count + k.max(other)] = None;
+                }
+            }
+        }
+        for k in self.scenery(options) {
+            self.merge(0, k, options);
+        }
+    }
+
+    /// Notes what may be one, and leaves it as it was drawn.
+    pub(super) fn note_parts(&mut self, options: &Options) {
+        let count = self.regions.len();
+        if let Some((whole, part)) = self.most_alike(&mut vec![None; count * count], options) {
+            self.regions[part].part_of = Some(whole);
+        }
+        if self.regions[0].model.translates() {
+            for k in self.scenery(options) {
+                self.regions[k].part_of.get_or_insert(0);
+            }
+        }
+    }
+
+    /// Regions that move as the background would at another depth.
+    fn scenery(&mut self, options: &Options) -> Vec<usize> {
+        if self.regions.len() < 2 {
+            return Vec::new();
+        }
+        let frames = [&self.pair.first().grey, &self.pair.second().grey];
+        let all = matches(frames[0], frames[1]);
+        (1..self.regions.len())
+            .filter(|&k| self.regions[k].window.is_some() && self.is_scenery(k, &all, options))
+            .collect()
+    }
+
+    /// The two touching regions that lose least as one body, if little. `lost` is what pairs are known to lose.
+    fn most_alike(
+        &mut self,
+        lost: &mut [Option<f64>],
+        options: &Options,
+    ) -> Option<(usize, usize)> {
+        let count = self.regions.len();
+        let touch = touching(&self.labels, count);
+        let mut best: Option<(f64, (usize, usize))> = None;
+        for a in 0..count {
+            for b in a + 1..count {
+                if touch[a * count + b] < TOUCH {
+                    continue;
+                }
+                let known = lost[a * count + b];
+                let lost_here = known.unwrap_or_else(|| self.lost_as_body(a, b, options));
+                lost[a * count + b] = Some(lost_here);
+                if lost_here < best.map_or(ALIKE, |(least, _)| least) {
+                    best = Some((lost_here, (a, b)));
+                }
+            }
+        }
+        best.map(|(_, pair)| pair)
+    }
+
+    /// What one motion and surface cost more than the two, E/σ², begun from that of the larger region and, where that
+    /// is not the background, from the other's.
+    fn lost_as_body(&mut self, a: usize, b: usize, options: &Options) -> f64 {
+        let apart: f64 = [a, b].map(|k| self.cost_of(k, options)).iter().sum();
+        let joined = joined(&self.labels, a, b);
+        let variance = f64::from(self.sigma * self.sigma);
+        let mut least = f64::INFINITY;
+        for from in [a, b] {
+            if from > 0 && a == 0 {
+                continue;
+            }
+            let (model, mut state) = (self.regions[from].model, self.regions[from].state.clone());
+            for steps in STEPS {
+                let steps = match model {
+                    MotionModel::Still => 0,
+                    _ => steps,
+                };
+                let found = self.tried(&joined, a, state, free(model), steps, options);
+                least = least.min((found.1.energy - apart) / variance);
+                // What is far off after a few steps stays so.
+                if !(ALIKE..=FAR * ALIKE).contains(&least) {
+                    break;
+                }
+                state = found.0;
+            }
+            if least < ALIKE {
+                break;
+            }
+        }
+        least
+    }
+
+    /// Whether region k and the background are one scene.
+    fn is_scenery(&mut self, k: usize, all: &[Match], options: &Options) -> bool {
+        let (labels, level) = (&self.labels, self.level);
+        let of = |m: &Match| {
+            let at = m.at.map(|v| v as usize >> level);
+            labels[(
+                at[0].min(labels.width() - 1),
+                at[1].min(labels.height() - 1),
+            )]
+        };
+        let both: Vec<Match> = (all.iter().copied())
+            .filter(|m| [0, k].contains(&usize::from(of(m))))
+            .collect();
+        let found = epipolar_motion(&both, &self.scales[0].camera);
+        let found = found.filter(|f| f.model == MotionModel::Full);
+        let own = self.regions[0].state.motion();
+        let motions = [Some(own), found.map(|f| f.motion)];
+        let apart: f64 = [0, k].map(|k| self.cost_of(k, options)).iter().sum();
+        let labels = self.labels.clone();
+        let mut least = f64::INFINITY;
+        for motion in motions.into_iter().flatten() {
+            if motion.translation == DVec3::ZERO {
+                continue;
+            }
+            let found = [k, 0].map(|k| {
+                let state = self.under(&motion, k);
+                self.tried(&labels, k, state, Free::Depth, DEPTH_STEPS, options)
+            });
+            // Mean ρ is 1 in each, so that the lengths of T say how near one is beside the other.
+            let [near, far] = [0, 1].map(|n| found[n].0.translation.dot(motion.translation));
+            if !(near > far / NEARER && near < far * NEARER) {
+                continue;
+            }
+            let parts = found.map(|f| f.1.energy);
+            least = least.min(parts[0] + parts[1]);
+            if least - apart < ALIKE * f64::from(self.sigma * self.sigma) {
+                break;
+            }
+        }
+        let lost = (least - apart) / f64::from(self.sigma * self.sigma);
+        lost < ALIKE
+    }
+
+    /// Region k under another motion, at the depth at which it moves most as it does.
+    fn under(&self, motion: &RigidMotion, k: usize) -> State {
+        let region = &self.regions[k];
+        let direction = motion.translation.normalize_or_zero();
+        let mut state = region.state.clone();
+        state.rotation = turn(motion.rotation);
+        let Some(window) = region.window else {
+            return state;
+        };
+        let scale_camera = self.scales[self.level].camera;
+        let own = region.state.view(&scale_camera);
+        let at = |length: f64| {
+            let mut state = state.clone();
+            state.translation = direction * length;
+            state.view(&scale_camera)
+        };
+        let (rest, unit) = (at(0.0), at(0.01));
+        let (mut along, mut square) = (0.0f64, 0.0f64);
+        let rows = window.top..window.top + window.height;
+        for (x, y) in
+            rows.flat_map(|y| (window.left..window.left + window.width).map(move |x| (x, y)))
+        {
+            if usize::from(self.labels[(x, y)]) != k {
+                continue;
+            }
+            let place = |v: usize| ((v << self.level) + (1 << self.level) / 2) as f32;
+            let rho = region.state.surface.at(place(x), place(y));
+            let ([u, v], [a, b], [p, q]) = (
+                own.target(x, y, rho),
+                rest.target(x, y, 1.0),
+                unit.target(x, y, 1.0),
+            );
+            let (dx, dy) = (f64::from(p - a), f64::from(q - b));
+            along += f64::from(u - a) * dx + f64::from(v - b) * dy;
+            square += dx * dx + dy * dy;
+        }
+        let length = 0.01 * along / square.max(1e-12);
+        state.translation = direction * length;
+        // The background's own relief is mostly right; that of a small region may be its mirror image.
+        if k > 0 {
+            state.surface.rho.iter_mut().for_each(|rho| *rho = 1.0);
+        }
+        state
+    }
+
+    /// E of a region as it is.
+    fn cost_of(&mut self, k: usize, options: &Options) -> f64 {
+        let (labels, state) = (self.labels.clone(), self.regions[k].state.clone());
+        self.tried(&labels, k, state, Free::Depth, 0, options)
+            .1
+            .energy
+    }
+
+    fn tried(
+        &mut self,
+        labels: &Grid<u8>,
+        k: usize,
+        mut state: State,
+        free: Free,
+        steps: usize,
+        options: &Options,
+    ) -> (State, Outcome) {
+        let Some(window) = around(labels, k) else {
+            return (state, Outcome::default());
+        };
+        let reach = self.reach_of(k, window);
+        state.surface = state.surface.over(self.spacing(), &reach);
+        let problem = Problem {
+            scale: &self.scales[self.level],
+            level: self.level,
+            support: Support::of(labels, k, window),
+            prior: self.prior(STIFFNESS[0], self.sigma, options),
+            sigma: self.sigma,
+        };
+        let mut equations = NormalEquations::default();
+        let outcome =
+            (self.estimator).improve(&problem, &mut state, free, steps, &mut equations, false);
+        (state, outcome)
+    }
+
+    /// Gives what region `from` owns to region `into`.
+    fn merge(&mut self, into: usize, from: usize, options: &Options) {
+        let labels = joined(&self.labels, into, from);
+        let (model, state) = (self.regions[into].model, self.regions[into].state.clone());
+        let steps = match model {
+            MotionModel::Still => 0,
+            _ => STEPS[1],
+        };
+        let (state, outcome) = self.tried(&labels, into, state, free(model), steps, options);
+        self.labels = labels;
+        self.regions[into].state = state;
+        self.regions[into].outcome = outcome;
+        self.find_windows();
+    }
+}
+
+/// Labels with those of `from` made `into`.
+fn joined(labels: &Grid<u8>, into: usize, from: usize) -> Grid<u8> {
+    labels.map(|l| {
+        if usize::from(l) == from {
+            into as u8
+        } else {
+            l
+        }
+    })
+}
+
+fn around(labels: &Grid<u8>, k: usize) -> Option<Window> {
+    let data = labels.data();
+    Window::around(labels.width(), labels.height(), |i| {
+        usize::from(data[i]) == k
+    })
+}
+
+/// Pairs of neighbouring pixels of regions a < b, at a · `count` + b.
+fn touching(labels: &Grid<u8>, count: usize) -> Vec<usize> {
+    let mut pairs = vec![0; count * count];
+    let mut see = |a: u8, b: u8| {
+        if a != b {
+            pairs[usize::from(a.min(b)) * count + usize::from(a.max(b))] += 1;
+        }
+    };
+    for y in 0..labels.height() {
+        let row = labels.row(y);
+        row.windows(2).for_each(|w| see(w[0], w[1]));
+        if y + 1 < labels.height() {
+            row.iter()
+                .zip(labels.row(y + 1))
+                .for_each(|(a, b)| see(*a, *b));
+        }
+    }
+    pairs
+}
+
+#[cfg(test)]
+mod tests;

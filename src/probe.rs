@@ -1,0 +1,83 @@
+//! What is found at one pixel.
+//!
+//! ```text
+//! ψ ≈ I₂(x + u, y + v) − I₁(x, y)
+//! ```
+//!
+//! To first order in the motion this is the ψ of the constraint, and unlike that it holds however far things move. Grey
+//! levels 0–255, of the frames as they are: a change of light is part of it.
+
+use serde::Serialize;
+
+use crate::frames::FramePair;
+use crate::interpretation::Interpretation;
+
+/// One pixel of an interpretation. What is not known is not a number, and `null` in JSON.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
+pub struct Probe {
+    /// Column, from 0.
+    pub x: usize,
+    /// Row, from 0.
+    pub y: usize,
+    /// 0 for the background, k inside the k-th curve.
+    pub label: u8,
+    /// Z, in units of its own for each region.
+    pub depth: f32,
+    /// How far depth is observable, 0–1.
+    pub confidence: f32,
+    /// Motion to the right, pixels per frame.
+    pub u: f32,
+    /// Motion downwards, pixels per frame.
+    pub v: f32,
+    /// Its length, pixels per frame.
+    pub speed: f32,
+    /// ψ, grey levels.
+    pub psi: f32,
+    /// Whether the point is hidden in the second frame.
+    pub occluded: bool,
+}
+
+/// What `found` says of pixel `(x, y)` of `pair`'s first frame, each region's depth multiplied by its factor in
+/// `scales` (1 where missing); `None` outside the frame.
+pub fn probe(
+    pair: &FramePair,
+    found: &Interpretation,
+    scales: &[f64],
+    (x, y): (usize, usize),
+) -> Option<Probe> {
+    if x >= found.labels.width() || y >= found.labels.height() {
+        return None;
+    }
+    let at = (x, y);
+    let label = found.labels[at];
+    let scale = scales.get(usize::from(label)).copied().unwrap_or(1.0);
+    let (u, v) = (found.flow.u[at], found.flow.v[at]);
+    // Brightness may be kept on fewer pixels than the frame has.
+    let n = pair.first().grey_factor() as f32;
+    let brightness = |frame: &crate::Frame, x: f32, y: f32| {
+        let at = |c: f32| (c + 0.5) / n - 0.5;
+        frame.grey.bilinear(at(x), at(y))
+    };
+    let (fx, fy) = (x as f32, y as f32);
+    let psi = brightness(pair.second(), fx + u, fy + v) - brightness(pair.first(), fx, fy);
+    Some(Probe {
+        x,
+        y,
+        label,
+        depth: found.depth[at] * scale as f32,
+        confidence: found.confidence[at],
+        u,
+        v,
+        speed: u.hypot(v),
+        psi: if u.is_finite() && v.is_finite() {
+            psi
+        } else {
+            f32::NAN
+        },
+        occluded: found.occluded[at] != 0,
+    })
+}

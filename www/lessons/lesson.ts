@@ -1,0 +1,78 @@
+/**
+ * A lesson as data: an HTML file of steps, each with text and the state of the page that it speaks of.
+ *
+ *     <article data-title="…">
+ *       <section data-state="#blocks/motion?o=preset:paper" data-solve="run" data-term="data"> … </section>
+ *       <details> … </details>
+ *     </article>
+ *
+ * `data-state` is a link as the page itself makes them (`memory/link.ts`). `data-solve` says what is done with it: `run`,
+ * a number of passes, or nothing. `data-term` names the term of (7) that the step is about.
+ */
+
+/** A step of a lesson. */
+export interface Step {
+  text: Node;
+  state: string;
+  /** "run", a number of passes, or "". */
+  solve: string;
+  /** "data", "smoothness", "length" or "". */
+  term: string;
+}
+
+/** A lesson. */
+export interface Lesson {
+  id: string;
+  title: string;
+  steps: Step[];
+  /** A question, and its answer to unfold, after the last step. */
+  question: Node | null;
+}
+
+/** In the order in which they are taught. */
+export const LESSONS: readonly { id: string; title: string }[] = [
+  { id: "aperture", title: "The aperture problem" },
+  { id: "rigid", title: "The rigid constraint" },
+  { id: "scale", title: "Why only T/Z" },
+  { id: "weights", title: "What each weight does" },
+  { id: "diffusion", title: "Smoothing by (11) or by (12)" },
+  { id: "start", title: "The start does not matter, until it does" },
+  { id: "still", title: "A still camera sees no depth" },
+  { id: "small", title: "Small objects and rotation" },
+  { id: "occlusion", title: "Occlusion" },
+  { id: "scales", title: "Large motion and scales" },
+  { id: "flow", title: "Depth from motion against Horn–Schunck" },
+  { id: "anaglyph", title: "How an anaglyph works" },
+];
+
+const files = import.meta.glob<string>("./*.html", { query: "?raw", import: "default" });
+
+/** Loads a lesson; `null` when there is none of that name. */
+export async function lessonOf(id: string): Promise<Lesson | null> {
+  const known = LESSONS.find((lesson) => lesson.id === id);
+  const load = files[`./${id}.html`];
+  return known && load ? parsed(known, await load()) : null;
+}
+
+/** (7), each of its terms marked. */
+export async function energyTerms(): Promise<Node> {
+  return fragment(await files["./energy.html"]!());
+}
+
+function parsed({ id, title }: (typeof LESSONS)[number], html: string): Lesson {
+  const whole = fragment(html);
+  const steps = [...whole.querySelectorAll("section")].map((section): Step => {
+    const { state = "", solve = "", term = "" } = section.dataset;
+    const text = document.createDocumentFragment();
+    text.append(...section.childNodes);
+    return { text, state, solve, term };
+  });
+  return { id, title, steps, question: whole.querySelector("details") };
+}
+
+/** The project's own files, not anybody's input. */
+function fragment(html: string): DocumentFragment {
+  const template = document.createElement("template");
+  template.innerHTML = html;
+  return template.content;
+}

@@ -1,0 +1,132 @@
+/** Beside the stage: what the colours stand for, in numbers and units, as the core says. */
+
+import { byId, make } from "../dom";
+import { number } from "../format";
+import { store, type State } from "../store";
+import { asks, awaited, comparing } from "../views";
+import type { Legend } from "../worker/protocol";
+
+export function mountLegend(): void {
+  store.watch(
+    ({ legends, pictured, view, viewParams, split, shapes, ranges }) => [
+      ranges,
+      legends,
+      pictured,
+      view,
+      viewParams,
+      split,
+      shapes.length,
+    ],
+    show,
+  );
+}
+
+function show(state: Readonly<State>): void {
+  const place = byId("legend");
+  const wanted = asks(state);
+  // Both halves of a divided stage may have the same.
+  const seen = new Set<string>();
+  const drawn = awaited(state) ? [] : state.legends.slice(0, wanted.length);
+  const elements = drawn.flatMap((legend) => {
+    const text = JSON.stringify(legend);
+    if (!legend || seen.has(text)) return [];
+    seen.add(text);
+    return [element(legend, comparing(state))];
+  });
+  const holding = document.activeElement?.id === "hold-range";
+  place.replaceChildren(...elements);
+  if (holding) document.getElementById("hold-range")?.focus();
+}
+
+function element(legend: Legend, compared: boolean): HTMLElement {
+  const { form, quantity, unit } = legend;
+  const depth = quantity === "Depth";
+  const title =
+    depth && compared
+      ? "Depth in the truth's unit"
+      : depth
+        ? "Depth; 1 is the region's mean"
+        : unit
+          ? `${quantity}, ${unit}`
+          : quantity;
+  const name = make("figcaption", {}, quantity);
+  const small = depth ? (compared ? "truth's unit" : "× mean") : unit;
+  if (small) name.append(make("small", {}, small));
+  const figure = make("figure", { class: `scale-${form}`, title }, name);
+  switch (form) {
+    case "ramp":
+      figure.append(ramp(legend));
+      break;
+    case "wheel":
+      figure.append(wheel(legend));
+      break;
+    case "arrow":
+      figure.append(make("p", {}, `longest ${number(legend.marks[0]?.value ?? 0, 2)}`));
+      break;
+    case "keys":
+      figure.append(keys(legend));
+      break;
+  }
+  // Beside the truth the range is the truth's.
+  if (legend.hold && !compared) figure.append(holder(legend.hold));
+  return figure;
+}
+
+/** Holds the range as it is, so that passes can be compared, or lets it follow what is found. */
+function holder({ span, speed }: NonNullable<Legend["hold"]>): HTMLElement {
+  const { ranges } = store.state;
+  const held = span ? ranges.span !== null : ranges.speed !== null;
+  const button = make(
+    "button",
+    { type: "button", id: "hold-range", "aria-pressed": String(held) },
+    "Hold",
+    make("span", { class: "visually-hidden" }, " the range"),
+  );
+  button.title = held ? "The range is held; press to let it follow" : "Hold this range of colours";
+  button.addEventListener("click", () => {
+    store.update({
+      ranges: span
+        ? { ...ranges, span: held ? null : span }
+        : { ...ranges, speed: held ? null : speed },
+    });
+  });
+  return button;
+}
+
+/** The end of the ramp is up, or at the right where it lies. */
+function ramp({ colours, marks }: Legend): HTMLElement {
+  const bar = make("div", { class: "ramp", "aria-hidden": "true" });
+  bar.style.setProperty("--colours", colours.join(", "));
+  const list = make("ol", { class: "marks" });
+  for (const { at, value } of marks) {
+    const mark = make("li", {}, number(value, 2));
+    mark.style.setProperty("--at", String(at));
+    list.append(mark);
+  }
+  return make("div", { class: "ramp-body" }, bar, list);
+}
+
+/** From right clockwise; white is rest. */
+function wheel({ colours, marks }: Legend): HTMLElement {
+  const disc = make("div", { class: "wheel", "aria-hidden": "true" });
+  disc.style.setProperty("--colours", [...colours, colours[0] ?? "white"].join(", "));
+  const full = marks.at(-1)?.value ?? 0;
+  return make(
+    "div",
+    { class: "wheel-body" },
+    disc,
+    make("p", { title: "Motion at which colours are full" }, `rim ${number(full, 2)}`),
+  );
+}
+
+function keys({ colours }: Legend): HTMLElement {
+  return make(
+    "ul",
+    {},
+    ...colours.map((colour, label) => {
+      const chip = make("span", { class: "chip", "aria-hidden": "true" });
+      chip.style.background = colour;
+      return make("li", {}, chip, label === 0 ? "Backgr." : `Curve ${label}`);
+    }),
+  );
+}
