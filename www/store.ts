@@ -65,11 +65,18 @@ export interface ViewParams {
   palette: string;
   /** "flow" as colours or "arrows". */
   motion: string;
+  /** "anaglyph", one of the core's layouts of a pair, or "wiggle". */
+  presentation: string;
   glasses: string;
+  /** Shares of the picture's width and of the depth shown. */
   baseline: number;
   convergence: number;
+  /** Whether the core chooses the convergence. */
+  converge: boolean;
+  swap: boolean;
   material: string;
-  lightAngle: number;
+  /** Whether what is of unknown depth is shown, as a ghost. */
+  ghosts: boolean;
   compare: string;
   curvesOnTop: boolean;
 }
@@ -248,11 +255,14 @@ export const store = new Store({
   viewParams: {
     palette: "ember",
     motion: "flow",
+    presentation: "anaglyph",
     glasses: "red-cyan",
     baseline: 0.025,
     convergence: 0.5,
+    converge: true,
+    swap: false,
     material: "textured",
-    lightAngle: 135,
+    ghosts: true,
     compare: "flow",
     curvesOnTop: true,
   },

@@ -14,6 +14,10 @@ export interface Setting {
   /** One of several; a slider's range; neither for a yes or no. */
   choices?: Choice[];
   range?: { min: number; max: number; step: number };
+  /** Whether a range is of shares, to be read in percent. */
+  percent?: boolean;
+  /** What setting it sets as well. */
+  also?: Partial<ViewParams>;
 }
 
 export interface View {
@@ -96,18 +100,40 @@ export const VIEWS: View[] = [
   {
     id: "anaglyph",
     label: "Anaglyph",
-    hint: "For coloured glasses, left eye first.",
-    kinds: () => ["anaglyph"],
+    hint: "For coloured glasses, left eye first; or both eyes' pictures side by side, or in turn.",
+    kinds: ({ presentation }) => [presentation === "anaglyph" ? "anaglyph" : "stereo"],
     settings: ({ catalogues }) => [
+      {
+        key: "presentation",
+        label: "Shown as",
+        choices: [
+          { value: "anaglyph", label: "Anaglyph" },
+          ...(catalogues?.layouts ?? []),
+          { value: "wiggle", label: "Wiggle" },
+        ],
+      },
       { key: "glasses", label: "Glasses", choices: catalogues?.glasses ?? [] },
-      { key: "baseline", label: "Parallax", range: { min: 0, max: 0.1, step: 0.0025 } },
-      { key: "convergence", label: "Convergence", range: { min: 0, max: 1, step: 0.02 } },
+      { key: "swap", label: "Swap eyes" },
+      {
+        key: "baseline",
+        label: "Parallax",
+        range: { min: 0, max: 0.08, step: 0.0025 },
+        percent: true,
+      },
+      {
+        key: "convergence",
+        label: "Convergence",
+        range: { min: 0, max: 1, step: 0.02 },
+        percent: true,
+        also: { converge: false },
+      },
+      { key: "converge", label: "Automatic convergence" },
     ],
   },
   {
     id: "relief",
     label: "Relief",
-    hint: "Turn it by dragging or with the arrow keys; + and − come closer and go away.",
+    hint: "Turn it by dragging or with the arrow keys, with Shift the light; + and − come closer and go away.",
     kinds: NONE,
     settings: () => [
       {
@@ -116,9 +142,11 @@ export const VIEWS: View[] = [
         choices: [
           { value: "textured", label: "Frame" },
           { value: "plaster", label: "Plaster" },
+          { value: "wireframe", label: "Wireframe" },
+          { value: "normals", label: "Normals" },
         ],
       },
-      { key: "lightAngle", label: "Light", range: { min: 0, max: 360, step: 5 } },
+      { key: "ghosts", label: "Unknown depth as a ghost" },
     ],
   },
   {
@@ -166,6 +194,8 @@ export const VIEWS: View[] = [
   },
 ];
 
+/** Lines of a wireframe along the longer side. */
+const WIRES = 100;
 /** Frames up to this width are drawn on at twice their resolution. */
 const FINE_WIDTH = 800;
 
@@ -188,11 +218,14 @@ export function wantedParams({
   width,
   ranges,
 }: Readonly<State>): Record<string, unknown> {
-  const { palette, glasses, baseline, convergence } = viewParams;
+  const { palette, glasses, baseline, swap, presentation } = viewParams;
+  const convergence = viewParams.converge ? null : viewParams.convergence;
+  const layout = ["anaglyph", "wiggle"].includes(presentation) ? "parallel" : presentation;
   // Arrows are lines: on a small frame they need finer pixels than the frame's.
   const magnify = width > 0 && width <= FINE_WIDTH ? 2 : 1;
   // The page draws a legend of its own, with numbers.
-  return { scales, palette, glasses, baseline, convergence, magnify, legend: false, ...ranges };
+  const own = { scales, palette, glasses, baseline, convergence, swap, layout, magnify };
+  return { ...own, legend: false, ...ranges };
 }
 
 /** What the worker should send for what is shown. */
@@ -207,8 +240,13 @@ export function wantedBy(state: Readonly<State>): Omit<Wanted, "id"> {
       compared: comparing(state),
     })),
     longest: screenSide(),
-    mesh: state.view === "relief" ? params : null,
+    mesh: state.view === "relief" ? { ...params, step: stepOf(state) } : null,
   };
+}
+
+/** Pixels between vertices; a mesh of wires must leave gaps to look through. */
+function stepOf({ viewParams, width, height }: Readonly<State>): number | null {
+  return viewParams.material === "wireframe" ? Math.ceil(Math.max(width, height) / WIRES) : null;
 }
 
 /** The stage's longer side in pixels of the screen, in steps so that resizing asks for nothing new. */

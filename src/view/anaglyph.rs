@@ -1,9 +1,10 @@
 //! Both eyes' pictures in one, for coloured glasses.
 //!
-//! E. Dubois, "A projection method to generate anaglyph stereo images" (2001), and the sets that he
-//! published later: each output channel is a weighted sum of the six input channels, in linear light,
-//! clipped and encoded. Weights of a channel that is used sum to 1, so that what both eyes see alike keeps
-//! its brightness.
+//! Each output channel is a weighted sum of the six input channels, in linear light, clipped and encoded. Dubois chose the
+//! weights so that, through the filters and on the screen that he measured, each eye's colours come as near to those of its
+//! picture as least squares can bring them: "A projection method to generate anaglyph stereo images" (ICASSP 2001), and
+//! the sets that he published from 2009 on. Weights of a channel that is used sum to 1, so that what both eyes see alike
+//! keeps its brightness. Luminance is that of Rec. 709.
 
 use super::colour::{decode, encode};
 use super::params::{Choice, choose};
@@ -15,7 +16,7 @@ use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 
 /// The glasses to choose from, left eye's colour first.
-pub const GLASSES: [Choice; 5] = [
+pub const GLASSES: [Choice; 7] = [
     Choice {
         value: "red-cyan",
         label: "Red / cyan",
@@ -23,6 +24,14 @@ pub const GLASSES: [Choice; 5] = [
     Choice {
         value: "red-cyan-lcd",
         label: "Red / cyan, for LCD screens",
+    },
+    Choice {
+        value: "half-colour",
+        label: "Red / cyan, half colour",
+    },
+    Choice {
+        value: "grey",
+        label: "Red / cyan, in grey",
     },
     Choice {
         value: "green-magenta",
@@ -36,6 +45,17 @@ pub const GLASSES: [Choice; 5] = [
         value: "red-blue",
         label: "Red / blue, in grey",
     },
+];
+
+/// By what each of [`GLASSES`] is served, with its source.
+pub const METHODS: [&str; 7] = [
+    "Least squares, E. Dubois, ICASSP 2001",
+    "Least squares for LCD screens, E. Dubois 2009",
+    "Half colour: the left eye's luminance, the right eye's green and blue",
+    "Each eye's luminance (Rec. 709)",
+    "Least squares, E. Dubois 2009",
+    "Least squares, E. Dubois 2009",
+    "Each eye's luminance (Rec. 709)",
 ];
 
 /// Weights of one pair of glasses: rows R, G, B out; columns left R, G, B, right R, G, B.
@@ -80,12 +100,20 @@ const AMBER_BLUE: [[f32; 6]; 3] = [
     [-0.026, 0.908, 0.068, 0.006, 0.062, -0.017],
     [-0.038, -0.173, 0.022, 0.094, 0.185, 0.911],
 ];
-/// No projection is published for these: each eye gets the luminance of its picture.
-const RED_BLUE: [[f32; 6]; 3] = [
+/// Of the left eye's picture, and of the right eye's.
+const LUMINANCE: [[f32; 6]; 2] = [
     [0.2126, 0.7152, 0.0722, 0.0, 0.0, 0.0],
-    [0.0; 6],
     [0.0, 0.0, 0.0, 0.2126, 0.7152, 0.0722],
 ];
+/// Colours of the right eye alone: the left eye sees no saturated red flicker.
+const HALF_COLOUR: [[f32; 6]; 3] = [
+    LUMINANCE[0],
+    [0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+    [0.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+];
+const GREY: [[f32; 6]; 3] = [LUMINANCE[0], LUMINANCE[1], LUMINANCE[1]];
+/// No projection is published for these.
+const RED_BLUE: [[f32; 6]; 3] = [LUMINANCE[0], [0.0; 6], LUMINANCE[1]];
 
 impl Glasses {
     /// The weights of a value of [`GLASSES`].
@@ -93,7 +121,15 @@ impl Glasses {
     /// # Errors
     /// [`Error::Choice`] for any other.
     pub fn named(name: &str) -> Result<Self, Error> {
-        let all = [RED_CYAN, RED_CYAN_LCD, GREEN_MAGENTA, AMBER_BLUE, RED_BLUE];
+        let all = [
+            RED_CYAN,
+            RED_CYAN_LCD,
+            HALF_COLOUR,
+            GREY,
+            GREEN_MAGENTA,
+            AMBER_BLUE,
+            RED_BLUE,
+        ];
         choose("pair of glasses", name, &GLASSES).map(|i| Self(all[i]))
     }
 }

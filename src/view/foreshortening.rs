@@ -11,30 +11,36 @@
 
 use glam::Vec3;
 
-use super::span::percentile;
-
 /// The depth drawn, as a share of the width, between which it is left as it is.
 const SHALLOWEST: f32 = 0.35;
 const DEEPEST: f32 = 0.8;
 /// Shallow reliefs are deepened by no more than this: past it, one would look at noise.
 const MOST: f32 = 3.0;
 
+/// Foreshortens `rho`, whose farthest, middle and nearest without the wildest are `range`, if that reaches far. `side` is
+/// the frame's longer side over f. Gives the same three as they are then.
+pub(super) fn foreshorten(rho: &mut [f32], range: [f32; 3], side: f32) -> [f32; 3] {
+    let [far, middle, near] = range;
+    // The frame's size at the middle depth is what depth is a share of.
+    let ratio = (middle / far - middle / near) / side;
+    if ratio <= DEEPEST {
+        return range;
+    }
+    let b = foreshortening(near / middle, far / middle, DEEPEST * side);
+    let map = |rho: f32| (rho + b * middle) / (1.0 + b);
+    for value in rho {
+        *value = map(*value);
+    }
+    range.map(map)
+}
+
 /// Brings points on their lines of sight, z towards the eye that is at the origin, into a box of about −1 to 1 in x or y.
-/// `side` is the frame's longer side over f. `deepen` multiplies depth; `None` chooses.
-pub(super) fn boxed(points: &mut [Vec3], side: f32, deepen: Option<f32>) {
-    let [near, middle, far] = quantiles(points);
-    // The frame's size at the middle depth; the box is half of it.
+/// `range` are their farthest, middle and nearest 1/Z. `deepen` multiplies depth; `None` chooses.
+pub(super) fn boxed(points: &mut [Vec3], range: [f32; 3], side: f32, deepen: Option<f32>) {
+    let [far, middle, near] = range.map(f32::recip);
     let across = side * middle;
     let ratio = (far - near) / across;
-    if deepen.is_none() && ratio > DEEPEST {
-        let b = foreshortening(middle / near, middle / far, DEEPEST * side);
-        for p in points.iter_mut() {
-            let z = -p.z;
-            *p *= (1.0 + b) / (1.0 + b * z / middle);
-        }
-    }
     let automatic = (SHALLOWEST / ratio.max(1e-6)).clamp(1.0, MOST);
-    let [near, _, far] = quantiles(points);
     let origin = Vec3::new(0.0, 0.0, -(near + far) / 2.0);
     let scale = Vec3::new(1.0, 1.0, deepen.unwrap_or(automatic)) * 2.0 / across;
     for p in points {
@@ -48,10 +54,4 @@ fn foreshortening(near: f32, far: f32, depth: f32) -> f32 {
     let half = 0.5 * ((near + far) - (near - far) / depth);
     let rest = near * far - (near - far) / depth;
     ((half * half - rest).max(0.0).sqrt() - half).max(0.0)
-}
-
-/// Near, middle and far, without the wildest.
-fn quantiles(points: &[Vec3]) -> [f32; 3] {
-    let mut depths: Vec<f32> = points.iter().map(|p| -p.z).collect();
-    [0.02, 0.5, 0.98].map(|q| percentile(&mut depths, q).unwrap_or(1.0))
 }

@@ -5,12 +5,16 @@
 //! [`ViewParams::magnify`] or a pair side by side asks for it.
 
 mod anaglyph;
+mod arrangement;
 mod arrows;
+mod behind;
 mod colour;
 mod compare;
 mod depth;
 mod flow;
 mod foreshortening;
+mod layers;
+mod leaps;
 mod legend;
 mod mask;
 mod mesh;
@@ -20,11 +24,11 @@ mod raster;
 mod relief;
 mod segmentation;
 mod span;
+mod steady;
 mod stereo;
 mod stroke;
-mod tears;
 
-pub use anaglyph::{GLASSES, Glasses, anaglyph, dubois};
+pub use anaglyph::{GLASSES, Glasses, METHODS, anaglyph, dubois};
 pub use arrows::arrows;
 pub use colour::{decode, encode, luminance};
 pub use compare::{aligned, same_colours};
@@ -37,7 +41,7 @@ pub use palette::{LABEL_COLOURS, PALETTES, Palette};
 pub use params::{Choice, ViewParams};
 pub use relief::relief;
 pub use segmentation::{labels, segmentation};
-pub use stereo::{Rig, parallax, second_eye, stereo};
+pub use stereo::{LAYOUTS, Rig, parallax, second_eye, stereo};
 
 use serde::Serialize;
 
@@ -149,7 +153,7 @@ pub fn catalogue() -> &'static [View] {
 /// the labels are; without any, those of the labels are drawn.
 ///
 /// # Errors
-/// [`Error::Choice`] for an unknown view, palette or glasses, [`Error::Option`] for a parameter out of
+/// [`Error::Choice`] for an unknown view, palette, layout or glasses, [`Error::Option`] for a parameter out of
 /// range, [`Error::Length`] when frame and interpretation differ in size.
 pub fn draw(
     kind: &str,
@@ -169,7 +173,9 @@ pub fn draw(
         });
     }
     let scaled;
-    let interpretation = if params.scales.iter().all(|&s| s == 1.0) {
+    // These take regions' depths from `arrangement.rs`, which knows the factors.
+    let arranged = ["relief", "anaglyph", "stereo"].contains(&kind);
+    let interpretation = if arranged || params.scales.iter().all(|&s| s == 1.0) {
         interpretation
     } else {
         scaled = interpretation.scaled(&params.scales);
@@ -184,7 +190,7 @@ pub fn draw(
         "flow" => Ok(flow(interpretation, params)),
         "arrows" => Ok(arrows(frame, interpretation, params)),
         "anaglyph" => anaglyph(frame, interpretation, params),
-        "stereo" => Ok(stereo(frame, interpretation, params)),
+        "stereo" => stereo(frame, interpretation, params),
         "confidence" => Ok(confidence(interpretation)),
         "occlusion" => Ok(occlusion(frame, interpretation, params)),
         _ => Err(Error::Choice {

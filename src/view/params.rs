@@ -54,10 +54,15 @@ pub struct ViewParams {
     pub speed: Option<f64>,
     /// Glasses of the anaglyph, a value of [`GLASSES`](super::GLASSES).
     pub glasses: String,
+    /// How the stereo pair is laid out, a value of [`LAYOUTS`](super::LAYOUTS).
+    pub layout: String,
+    /// Whether the eyes' pictures are exchanged, for glasses worn the other way round.
+    pub swap: bool,
     /// Largest parallax as a share of the frame's width, 0–0.2.
     pub baseline: f64,
-    /// What lies in the plane of the screen: 0 the farthest point, 1 the nearest.
-    pub convergence: f64,
+    /// What lies in the plane of the screen: 0 the farthest point, 1 the nearest; null: what is nearest at the frame's
+    /// left and right border, with half of the depth behind it at least.
+    pub convergence: Option<f64>,
     /// Whether the second eye's picture is interpolated between pixels.
     pub interpolate: bool,
     /// Degrees by which the relief is turned to the right, −80 to 80.
@@ -88,8 +93,10 @@ impl Default for ViewParams {
             spacing: None,
             speed: None,
             glasses: "red-cyan".to_owned(),
+            layout: "parallel".to_owned(),
+            swap: false,
             baseline: 0.025,
-            convergence: 0.5,
+            convergence: None,
             interpolate: true,
             turn: 14.0,
             tilt: 12.0,
@@ -131,7 +138,7 @@ impl ViewParams {
         within("spacing", self.spacing.unwrap_or(16.0), 4.0, 4096.0)?;
         within("speed", self.speed.unwrap_or(1.0), 1e-6, 1e6)?;
         within("baseline", self.baseline, 0.0, 0.2)?;
-        within("convergence", self.convergence, 0.0, 1.0)?;
+        within("convergence", self.convergence.unwrap_or(0.5), 0.0, 1.0)?;
         within("turn", self.turn, -80.0, 80.0)?;
         within("tilt", self.tilt, -80.0, 80.0)?;
         within("relief", self.relief.unwrap_or(1.0), 0.0, 100.0)?;

@@ -30,6 +30,17 @@ impl Raster {
         }
     }
 
+    /// Draws what `other` shows nearer.
+    pub fn add(&mut self, other: Self) {
+        let mine = self.light.data_mut().iter_mut().zip(self.near.data_mut());
+        let theirs = other.light.data().iter().zip(other.near.data());
+        for ((light, near), (&other_light, &other_near)) in mine.zip(theirs) {
+            if other_near > *near {
+                (*light, *near) = (other_light, other_near);
+            }
+        }
+    }
+
     /// Draws a triangle, whichever way it is turned.
     pub fn triangle(&mut self, [a, b, c]: [Corner; 3]) {
         let area = (b.at - a.at).perp_dot(c.at - a.at);

@@ -1,8 +1,8 @@
 //! The surface as if cast in plaster and lit by a lamp close by.
 //!
 //! The triangles of [`mesh`](super::mesh()) are turned, seen in perspective and shaded by Lambert's law:
-//! light = ambient + lamp · max(0, n·l) / (1 + fall-off · distance²). Regions whose depth is not known
-//! are drawn flat in darker grey.
+//! light = ambient + lamp · max(0, n·l) / (1 + fall-off · distance²). What goes on hidden is darker; regions whose depth is
+//! not known are flat ghosts.
 
 use glam::{Mat3, Vec2, Vec3};
 
@@ -22,6 +22,10 @@ const FALL_OFF: f32 = 0.16;
 /// Reflectances in linear light.
 const PLASTER: Vec3 = Vec3::new(0.86, 0.80, 0.70);
 const UNKNOWN: Vec3 = Vec3::new(0.20, 0.21, 0.23);
+/// Brightness of what goes on hidden.
+const DIMMED: f32 = 0.3;
+/// Opacity of what is of unknown depth.
+const GHOST: f32 = 0.3;
 /// Light behind, at the top and at the bottom.
 const BEHIND: [Vec3; 2] = [
     Vec3::new(0.030, 0.034, 0.044),
@@ -70,17 +74,34 @@ pub fn relief(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Pic
             light: shade(points[i], normals[i], mesh.known[i] != 0),
         })
         .collect();
-    let mut raster = Raster::new(width * fine, height * fine);
-    for t in mesh.indices.chunks_exact(3) {
-        raster.triangle([t[0], t[1], t[2]].map(|i| corners[i as usize]));
-    }
+    let draw = |triangles: &[u32], dim: f32| {
+        let mut raster = Raster::new(width * fine, height * fine);
+        for t in triangles.chunks_exact(3) {
+            raster.triangle([t[0], t[1], t[2]].map(|i| Corner {
+                light: corners[i as usize].light * dim,
+                ..corners[i as usize]
+            }));
+        }
+        raster
+    };
+    let [seen, hidden, _] = mesh.parts.map(|count| count as usize);
+    let ghosts = draw(&mesh.indices[seen + hidden..], 1.0);
+    let mut raster = draw(&mesh.indices[..seen], 1.0);
+    raster.add(draw(&mesh.indices[seen..seen + hidden], DIMMED));
     Grid::from_fn(width, height, |x, y| {
         let behind = BEHIND[0].lerp(BEHIND[1], y as f32 / height as f32);
         let mut light = Vec3::ZERO;
         for dy in 0..fine {
             for dx in 0..fine {
-                let here = raster.light[(x * fine + dx, y * fine + dy)];
-                light += if here.is_nan() { behind } else { here };
+                let at = (x * fine + dx, y * fine + dy);
+                let ghost = ghosts.light[at];
+                let nothing = if ghost.is_nan() {
+                    behind
+                } else {
+                    behind.lerp(ghost, GHOST)
+                };
+                let here = raster.light[at];
+                light += if here.is_nan() { nothing } else { here };
             }
         }
         let [r, g, b] = (light / (fine * fine) as f32).to_array().map(encode);

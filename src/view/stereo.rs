@@ -7,17 +7,42 @@
 //!
 //! x̃ is the place of the row whose x' is x; where surfaces compete for it, the nearer is seen. Both
 //! pictures are shifted against each other so that depth Z₀ has no parallax: x − x' = f d (1/Z − 1/Z₀),
-//! positive before the screen. What the second camera sees and the first did not is filled with the
-//! farther of the two sides, mirrored, since it is the farther surface that was hidden.
+//! positive before the screen. What the second camera sees and the first did not is the surface that goes on behind
+//! (`behind.rs`); at the frame's border, where none is known, the row is mirrored.
 
-use super::span::Span;
+use super::arrangement::arranged;
+use super::layers::{Layer, Layers, NOTHING};
+use super::params::{Choice, choose};
+use super::span::percentile;
 use super::{Picture, ViewParams};
+use crate::error::Error;
 use crate::frames::Frame;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 
 /// Neighbours whose places in the second picture are no further apart than this (px) are one surface.
 const JOINED: f32 = 2.0;
+/// What a convergence that is not given leaves of the parallax behind the screen, at least.
+const LEAST_BEHIND: f32 = 0.5;
+/// The columns at each side, as a share of the width, that a convergence that is not given looks at.
+const BORDER: f32 = 0.03;
+
+/// How a pair can be laid out: for eyes that look ahead, the left one's picture left; for crossed eyes, right; and for 3-D
+/// screens, which take both at half their width.
+pub const LAYOUTS: [Choice; 3] = [
+    Choice {
+        value: "parallel",
+        label: "Parallel",
+    },
+    Choice {
+        value: "crossed",
+        label: "Cross-eyed",
+    },
+    Choice {
+        value: "half",
+        label: "Side by side, half width",
+    },
+];
 
 /// Where the second camera stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,22 +54,47 @@ pub struct Rig {
 }
 
 impl Rig {
-    /// The rig in which no observable depth has more parallax than the share
+    /// The rig in which no known depth has more parallax than the share
     /// [`ViewParams::baseline`] of the width, and [`ViewParams::convergence`] says what lies on the
-    /// screen.
+    /// screen. If that does not, it is the nearest at the left and right border, which would else be cut off before the
+    /// screen; half of the parallax at least lies behind it.
     pub fn fitted(found: &Interpretation, params: &ViewParams) -> Self {
-        let Some(span) = Span::of(found, true, |_| true) else {
+        let (rho, known) = arranged(found, params);
+        Self::over(&rho, &known, found.camera.focal, params)
+    }
+
+    fn over(rho: &Grid<f32>, known: &Grid<bool>, focal: f64, params: &ViewParams) -> Self {
+        let width = rho.width();
+        let edge = (BORDER * width as f32).ceil() as usize;
+        let (mut all, mut border) = (Vec::new(), Vec::new());
+        for (i, (&rho, &known)) in rho.data().iter().zip(known.data()).enumerate() {
+            if known {
+                all.push(rho);
+                if i % width < edge || i % width >= width - edge {
+                    border.push(rho);
+                }
+            }
+        }
+        let Some((far, near)) = percentile(&mut all, 0.02).zip(percentile(&mut all, 0.98)) else {
             return Self {
                 baseline: 0.0,
                 convergence: 0.0,
             };
         };
-        let (far, near) = (f64::from(span.far), f64::from(span.near));
-        let convergence = far + params.convergence * (near - far);
-        let widest = (near - convergence).max(convergence - far);
-        let pixels = params.baseline * found.depth.width() as f64;
+        // A plane that faces the camera has no parallax to stretch.
+        let range = (near - far).max(0.02 * near);
+        let share = params.convergence.map_or_else(
+            || {
+                let nearest = percentile(&mut border, 0.95).unwrap_or(near);
+                f64::from(((nearest - far) / range).clamp(LEAST_BEHIND, 1.0))
+            },
+            |share| share,
+        );
+        let convergence = f64::from(far) + share * f64::from(range);
+        let widest = f64::from(range) * share.max(1.0 - share);
+        let pixels = params.baseline * width as f64;
         Self {
-            baseline: pixels / (found.camera.focal * widest),
+            baseline: pixels / (focal * widest),
             convergence,
         }
     }
@@ -53,18 +103,22 @@ impl Rig {
 /// Parallax x − x' in pixels of each pixel of the frame.
 pub fn parallax(depth: &Grid<f32>, focal: f64, rig: &Rig) -> Grid<f32> {
     depth.map(|z| {
-        let rho = 1.0 / f64::from(z);
-        let rho = if rho.is_finite() && rho > 0.0 {
-            rho
+        let rho = 1.0 / z;
+        if rho.is_finite() && rho > 0.0 {
+            shift(rho, focal, rig)
         } else {
-            rig.convergence
-        };
-        (focal * rig.baseline * (rho - rig.convergence)) as f32
+            0.0
+        }
     })
 }
 
-/// The picture that the second camera sees. `interpolate` mixes the two pixels between which a place
-/// falls; without it the one nearest to it is taken, as the paper does.
+fn shift(rho: f32, focal: f64, rig: &Rig) -> f32 {
+    (focal * rig.baseline * (f64::from(rho) - rig.convergence)) as f32
+}
+
+/// The picture that the second camera sees of one surface. `interpolate` mixes the two pixels between which a place
+/// falls; without it the one nearest to it is taken, as the paper does. What no pixel covers is filled with the farther
+/// of the two sides, mirrored.
 pub fn second_eye(
     picture: &Grid<[u8; 3]>,
     parallax: &Grid<f32>,
@@ -75,32 +129,36 @@ pub fn second_eye(
     let mut out = Grid::new(width, height, [0_u8; 3]);
     for y in 0..height {
         let mut row = Row::new(width);
-        let (colours, shifts, kinds) = (picture.row(y), parallax.row(y), labels.row(y));
-        for x in 0..width {
-            let place = x as f32 - shifts[x];
-            // The pixel for itself, half a pixel to either side…
-            let nearest = place.round();
-            row.offer(nearest, shifts[x], (place - nearest).abs(), colours[x]);
-            // … and the surface from it to its right neighbour.
-            if x + 1 == width || kinds[x] != kinds[x + 1] {
-                continue;
-            }
-            let next = (x + 1) as f32 - shifts[x + 1];
-            if next <= place || next - place > JOINED {
-                continue;
-            }
-            let mut target = place.ceil();
-            while target <= next {
-                let t = (target - place) / (next - place);
-                let colour = if interpolate {
-                    super::mix(colours[x], colours[x + 1], t)
-                } else {
-                    colours[if t < 0.5 { x } else { x + 1 }]
-                };
-                let shift = shifts[x] * (1.0 - t) + shifts[x + 1] * t;
-                row.offer(target, shift, -1.0, colour);
-                target += 1.0;
-            }
+        let shifts = parallax.row(y);
+        let joined = |x: usize| {
+            labels[(x, y)] == labels[(x + 1, y)] && shifts[x] - shifts[x + 1] <= JOINED - 1.0
+        };
+        row.offer_all(picture.row(y), shifts, joined, interpolate);
+        row.fill();
+        out.row_mut(y).copy_from_slice(&row.colours);
+    }
+    out
+}
+
+/// The same of both surfaces: what is seen, and what goes on behind.
+fn second_eye_of(layers: &Layers, focal: f64, rig: &Rig, interpolate: bool) -> Grid<[u8; 3]> {
+    let (width, height) = (layers.seen.rho.width(), layers.seen.rho.height());
+    let mut out = Grid::new(width, height, [0_u8; 3]);
+    for y in 0..height {
+        let mut row = Row::new(width);
+        for layer in [&layers.seen].into_iter().chain(&layers.hidden) {
+            let Layer { labels, rho, .. } = layer;
+            let shifts: Vec<f32> = (0..width)
+                .map(|x| match labels[(x, y)] {
+                    NOTHING => f32::NAN,
+                    _ => shift(rho[(x, y)], focal, rig),
+                })
+                .collect();
+            let joined = |x: usize| {
+                labels[(x, y)] == labels[(x + 1, y)]
+                    && !layers.leap.between(rho[(x, y)], rho[(x + 1, y)])
+            };
+            row.offer_all(layer.colours.row(y), &shifts, joined, interpolate);
         }
         row.fill();
         out.row_mut(y).copy_from_slice(&row.colours);
@@ -108,32 +166,53 @@ pub fn second_eye(
     out
 }
 
-/// Both eyes' pictures, left first.
+/// Both eyes' pictures, left first; exchanged if [`ViewParams::swap`] says so.
 pub(super) fn pair(
     frame: &Frame,
     found: &Interpretation,
     params: &ViewParams,
 ) -> [Grid<[u8; 3]>; 2] {
-    let rig = Rig::fitted(found, params);
-    // A few wild depths must not fly off: nothing goes beyond the span by more than a half.
-    let limit = (1.5 * params.baseline * frame.width() as f64) as f32;
-    let shifts = parallax(&found.depth, found.camera.focal, &rig).map(|s| s.clamp(-limit, limit));
-    let right = second_eye(&frame.rgb, &shifts, &found.labels, params.interpolate);
-    [(*frame.rgb).clone(), right]
+    let layers = Layers::of(frame, found, params);
+    let focal = found.camera.focal;
+    let rig = Rig::over(&layers.seen.rho, &layers.seen.known, focal, params);
+    let right = second_eye_of(&layers, focal, &rig, params.interpolate);
+    let left = (*frame.rgb).clone();
+    if params.swap {
+        [right, left]
+    } else {
+        [left, right]
+    }
 }
 
-/// The pair side by side, twice as wide as the frame: left eye's picture on the left.
-pub fn stereo(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Picture {
+/// The pair as [`ViewParams::layout`] says: twice as wide as the frame, or as wide, with each picture at half its width.
+///
+/// # Errors
+/// [`Error::Choice`] for an unknown layout.
+pub fn stereo(
+    frame: &Frame,
+    found: &Interpretation,
+    params: &ViewParams,
+) -> Result<Picture, Error> {
+    let layout = choose("layout", &params.layout, &LAYOUTS)?;
     let [left, right] = pair(frame, found, params);
-    let width = frame.width();
-    Grid::from_fn(2 * width, frame.height(), |x, y| {
-        let [r, g, b] = if x < width {
-            left[(x, y)]
+    let [first, second] = if layout == 1 {
+        [right, left]
+    } else {
+        [left, right]
+    };
+    // Columns of a picture that one column of the pair is the mean of.
+    let narrow = if layout == 2 { 2 } else { 1 };
+    let width = frame.width().div_ceil(narrow);
+    Ok(Grid::from_fn(2 * width, frame.height(), |x, y| {
+        let (picture, x) = if x < width {
+            (&first, x)
         } else {
-            right[(x - width, y)]
+            (&second, x - width)
         };
+        let at = |x: usize| picture[(x.min(frame.width() - 1), y)];
+        let [r, g, b] = super::mix(at(narrow * x), at(narrow * x + narrow - 1), 0.5);
         [r, g, b, 255]
-    })
+    }))
 }
 
 /// A row of the second picture while it is put together.
@@ -151,6 +230,44 @@ impl Row {
             colours: vec![[0; 3]; width],
             shifts: vec![f32::NEG_INFINITY; width],
             misses: vec![f32::INFINITY; width],
+        }
+    }
+
+    /// Every pixel of a row, and the surface between those that are `joined` to the next. A shift that is not a number is
+    /// no pixel.
+    fn offer_all(
+        &mut self,
+        colours: &[[u8; 3]],
+        shifts: &[f32],
+        joined: impl Fn(usize) -> bool,
+        interpolate: bool,
+    ) {
+        let width = colours.len();
+        for x in 0..width {
+            let place = x as f32 - shifts[x];
+            if place.is_nan() {
+                continue;
+            }
+            // The pixel for itself, half a pixel to either side…
+            let nearest = place.round();
+            self.offer(nearest, shifts[x], (place - nearest).abs(), colours[x]);
+            // … and the surface from it to its right neighbour.
+            if x + 1 == width || !joined(x) {
+                continue;
+            }
+            let next = (x + 1) as f32 - shifts[x + 1];
+            let mut target = place.ceil();
+            while target <= next {
+                let t = (target - place) / (next - place).max(1e-6);
+                let colour = if interpolate {
+                    super::mix(colours[x], colours[x + 1], t)
+                } else {
+                    colours[if t < 0.5 { x } else { x + 1 }]
+                };
+                let shift = shifts[x] * (1.0 - t) + shifts[x + 1] * t;
+                self.offer(target, shift, -1.0, colour);
+                target += 1.0;
+            }
         }
     }
 

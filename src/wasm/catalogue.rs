@@ -9,7 +9,9 @@ use super::write;
 use crate::frames::{MAX_PIXELS, MAX_SIDE, MIN_SIDE};
 use crate::options::{self, Descriptor, MAX_CURVES, Options, Preset};
 use crate::scene;
-use crate::view::{self, Choice, GLASSES, LABEL_COLOURS, PALETTES, View, ViewParams};
+use crate::view::{
+    self, Choice, GLASSES, LABEL_COLOURS, LAYOUTS, METHODS, PALETTES, View, ViewParams,
+};
 
 /// An option with its default under each preset.
 #[derive(Serialize, Tsify)]
@@ -40,6 +42,10 @@ struct ViewCatalogue {
     palettes: &'static [Choice],
     /// Glasses of the anaglyph.
     glasses: &'static [Choice],
+    /// By what each of them is served, with its source.
+    methods: &'static [&'static str],
+    /// Ways to lay out a stereo pair.
+    layouts: &'static [Choice],
     /// `#rrggbb` of label 0, of label 1, …
     colours: Vec<String>,
     /// The parameters that views take.
@@ -103,6 +109,8 @@ pub fn view_catalogue() -> String {
         views: view::catalogue(),
         palettes: &PALETTES,
         glasses: &GLASSES,
+        methods: &METHODS,
+        layouts: &LAYOUTS,
         colours: LABEL_COLOURS
             .map(|[r, g, b]| format!("#{r:02x}{g:02x}{b:02x}"))
             .into(),

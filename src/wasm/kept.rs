@@ -173,8 +173,7 @@ impl Kept {
     /// The relief, with the parameters of a view as JSON.
     pub fn mesh(&self, params: &Json) -> Result<Mesh, Error> {
         let params = params.view_params()?;
-        let found = self.found.scaled(&params.scales);
-        Ok(Mesh(view::mesh(self.pair.first(), &found, &params)))
+        Ok(Mesh(view::mesh(self.pair.first(), &self.found, &params)))
     }
 
     /// How far it is from the truth of `scene`: a `ScoreTable` as JSON.

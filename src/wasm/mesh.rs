@@ -30,7 +30,7 @@ impl Mesh {
         Float32Array::from(self.0.uvs.as_slice())
     }
 
-    /// sRGB of each vertex, three bytes, greyed where depth is not known.
+    /// sRGB of each vertex, three bytes, greyed where depth is not known, guessed and darker where it is hidden.
     #[wasm_bindgen(getter, unchecked_return_type = "Uint8Array<ArrayBuffer>")]
     pub fn colours(&self) -> Uint8Array {
         Uint8Array::from(self.0.colours.as_slice())
@@ -52,5 +52,12 @@ impl Mesh {
     #[wasm_bindgen(getter, unchecked_return_type = "Uint32Array<ArrayBuffer>")]
     pub fn indices(&self) -> Uint32Array {
         Uint32Array::from(self.0.indices.as_slice())
+    }
+
+    /// How many of the indices, in this order, are of what is seen at a known depth, of what goes on hidden behind it,
+    /// and of what is seen at an unknown depth.
+    #[wasm_bindgen(getter, unchecked_return_type = "Uint32Array<ArrayBuffer>")]
+    pub fn parts(&self) -> Uint32Array {
+        Uint32Array::from(self.0.parts.as_slice())
     }
 }

@@ -255,7 +255,7 @@ impl Solver {
     pub fn mesh(&self, params: &Json) -> Result<Mesh, Error> {
         let params = params.view_params()?;
         let n = self.shrunk_for(&params);
-        let found = self.found_shrunk(n).scaled(&params.scales);
+        let found = self.found_shrunk(n);
         let frames = self.solver.frames_shrunk(n);
         Ok(Mesh(view::mesh(frames.first(), &found, &params)))
     }

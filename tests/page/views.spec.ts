@@ -156,8 +156,24 @@ test("the relief stands, turns by keyboard and mouse, and takes plaster", async 
   await changed("drag");
   await page.getByLabel("Surface").selectOption("plaster");
   await changed("plaster");
-  await page.getByRole("slider", { name: "Light" }).fill("300");
-  await changed("light");
+  for (const surface of ["wireframe", "normals", "plaster"]) {
+    await page.getByLabel("Surface").selectOption(surface);
+    await changed(surface);
+  }
+  const lamp = page.getByRole("button", { name: /^Light from above and the left/ });
+  await lamp.focus();
+  await page.keyboard.press("ArrowDown");
+  await changed("light by keyboard");
+  const at = (await page.locator(".lamp").boundingBox())!;
+  await page.mouse.move(at.x + at.width / 2, at.y + at.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.7 * box.width, box.y + 0.7 * box.height, { steps: 3 });
+  await page.mouse.up();
+  await changed("light by its handle");
+  await expect(page.getByRole("button", { name: /^Light from below and the right/ })).toBeVisible();
+  await canvas.focus();
+  await page.keyboard.press("Shift+ArrowUp");
+  await changed("light by Shift");
 });
 
 /** The present view as it is saved. */

@@ -1,4 +1,5 @@
 //! Pictures and meshes of what was found.
 
 mod legend;
+mod surface;
 mod view;

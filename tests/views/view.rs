@@ -84,7 +84,7 @@ fn unknown_choices_and_numbers_out_of_range_are_refused() {
     )));
     for params in [
         of(|p| p.baseline = f64::NAN),
-        of(|p| p.convergence = 1.5),
+        of(|p| p.convergence = Some(1.5)),
         of(|p| p.scales = vec![1.0, f64::NAN]),
         of(|p| p.scales = vec![0.0]),
         of(|p| p.speed = Some(0.0)),
@@ -103,7 +103,7 @@ fn unknown_choices_and_numbers_out_of_range_are_refused() {
         Err(Error::Json { .. })
     ));
     let params = ViewParams::from_json(r#"{"baseline":0.04}"#).unwrap();
-    assert_eq!((params.baseline, params.convergence), (0.04, 0.5));
+    assert_eq!((params.baseline, params.convergence), (0.04, None));
 }
 
 #[test]
@@ -217,7 +217,7 @@ fn the_nearer_surface_is_seen_and_the_farther_fills_the_hole() {
 fn the_depth_of_convergence_has_no_parallax_and_the_widest_is_as_asked() {
     for (convergence, depth_on_screen) in [(0.0, 2.0_f32), (1.0, 1.0)] {
         let params = ViewParams {
-            convergence,
+            convergence: Some(convergence),
             baseline: 0.05,
             ..ViewParams::default()
         };
@@ -330,7 +330,7 @@ fn the_mesh_is_cut_between_regions_and_faces_the_viewer() {
         [m.positions[i], m.positions[i + 1], m.positions[i + 2]]
     };
     let mut area = [0.0_f32; 2];
-    for t in m.indices.chunks_exact(3) {
+    for t in m.indices[..m.parts[0] as usize].chunks_exact(3) {
         let label = m.labels[t[0] as usize];
         assert!(t.iter().all(|&i| m.labels[i as usize] == label), "a skirt");
         let [a, b, c] = [at(t[0]), at(t[1]), at(t[2])];
@@ -340,20 +340,21 @@ fn the_mesh_is_cut_between_regions_and_faces_the_viewer() {
     }
     // Both are planes facing the viewer; the square, at half the depth, is 16 px wide at half size,
     // less its cut corners.
-    for (n, z) in m.normals.chunks_exact(3).zip(m.positions.chunks_exact(3)) {
-        assert!(n[2] > 0.999, "{n:?}");
-        assert!(z.iter().all(|c| c.abs() <= 1.1));
+    for i in &m.indices[..m.parts[0] as usize] {
+        let i = 3 * *i as usize;
+        assert!(m.normals[i + 2] > 0.999, "{:?}", &m.normals[i..i + 3]);
+        assert!(m.positions[i..i + 3].iter().all(|c| c.abs() <= 1.1));
     }
     let whole = ((WIDTH - 1) * (HEIGHT - 1)) as f32;
     let expected = 256.0 / 4.0 / (whole - 256.0);
-    assert!((area[1] / area[0] - expected).abs() < 0.01 * expected);
+    assert!((area[1] / area[0] - expected).abs() < 0.03 * expected);
 }
 
 #[test]
 fn an_unobservable_region_has_a_flat_mesh() {
     let mut found = square();
     found.depth = Grid::from_fn(WIDTH, HEIGHT, |x, y| {
-        1.0 + 0.1 * ((x * 7 + y * 3) % 5) as f32
+        1.0 + 0.01 * x as f32 + 0.02 * y as f32
     });
     for (c, k) in found
         .confidence
@@ -436,24 +437,24 @@ fn a_floor_that_reaches_far_is_drawn_as_a_floor_no_deeper_than_wide() {
 }
 
 #[test]
-fn the_surface_is_torn_where_depth_leaps_over_some_pixels_and_not_where_it_bulges() {
-    let joins = |near: f32| {
-        // A pillar whose edges are spread over six pixels.
-        let (frame, found) = surface(160, 120, |x, _| {
-            1.0 + (near - 1.0) * ((36.0 - (x - 80.0).abs()) / 6.0).clamp(0.0, 1.0)
-        });
-        let m = mesh(&frame, &found, &ViewParams::default());
-        let from = |t: &[u32]| {
-            let sum: f32 = t.iter().map(|&i| m.uvs[2 * i as usize]).sum();
-            (160.0 * sum / 3.0 - 80.5).abs()
-        };
-        let triangles = m.indices.chunks_exact(3);
-        triangles
-            .filter(|t| (31.5..34.5).contains(&from(t)))
-            .count()
-    };
-    assert_eq!(joins(3.0), 0, "near and far are joined");
-    assert!(joins(1.1) > 500, "a bulge is torn");
+fn nothing_spans_a_leap_that_is_spread_over_some_pixels_and_a_bulge_stays_whole() {
+    // A pillar whose edges are spread over six pixels.
+    let (frame, found) = surface(160, 120, |x, _| {
+        1.0 + 2.0 * ((36.0 - (x - 80.0).abs()) / 6.0).clamp(0.0, 1.0)
+    });
+    let m = mesh(&frame, &found, &ViewParams::default());
+    let z = |i: u32| m.positions[3 * i as usize + 2];
+    let (low, high) = (z(0), z(160 * 60 + 80));
+    for t in m.indices.chunks_exact(3) {
+        let near = t.iter().filter(|&&i| z(i) > (low + high) / 2.0).count();
+        assert!(near == 0 || near == 3, "near and far are joined");
+    }
+    assert!(m.parts[1] > 0, "nothing goes on behind the pillar");
+    let (frame, found) = surface(160, 120, |x, _| {
+        1.0 + 0.1 * ((36.0 - (x - 80.0).abs()) / 6.0).clamp(0.0, 1.0)
+    });
+    let m = mesh(&frame, &found, &ViewParams::default());
+    assert_eq!(m.parts, [6 * 159 * 119, 0, 0], "a bulge is torn");
 }
 
 #[test]

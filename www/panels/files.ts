@@ -10,11 +10,12 @@ import type { ResultFile } from "../worker/protocol";
 const TYPES: Record<string, string> = { png: "image/png", json: "application/json" };
 
 let addresses: string[] = [];
-let reliefPicture: (() => Promise<Blob | null>) | null = null;
+/** How pictures are taken of views that draw themselves; `null` where at present the stage draws. */
+const takes = new Map<string, () => Promise<Blob | null> | null>();
 
-/** The relief view draws itself; it leaves here how to take its picture. */
-export function setReliefPicture(take: () => Promise<Blob | null>): void {
-  reliefPicture = take;
+/** A view that draws itself leaves here how to take its picture. */
+export function takePicture(view: string, take: () => Promise<Blob | null> | null): void {
+  takes.set(view, take);
 }
 
 export function mountFiles(): void {
@@ -34,8 +35,7 @@ export function mountFiles(): void {
     byId("files").querySelector("a")?.focus();
   });
   byId("save-view").addEventListener("click", async () => {
-    const relief = store.state.view === "relief" && reliefPicture;
-    const blob = await (relief ? relief() : stagePicture());
+    const blob = await (takes.get(store.state.view)?.() ?? stagePicture());
     if (!blob) return;
     const { view, source } = store.state;
     const name = source?.kind === "scene" ? source.name : "frames";

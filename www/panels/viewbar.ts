@@ -21,6 +21,17 @@ export function mountViewbar(): void {
     ({ view, viewParams, split, ranges }) => [view, viewParams, split?.left, split?.right, ranges],
     () => void look(),
   );
+  // One setting may set another.
+  store.watch(
+    ({ viewParams }) => [viewParams],
+    ({ viewParams }) => {
+      for (const box of byId("view-choices").querySelectorAll<HTMLInputElement>(
+        "[type=checkbox]",
+      )) {
+        box.checked = viewParams[box.id.replace("setting-", "") as keyof ViewParams] === true;
+      }
+    },
+  );
   new ResizeObserver(keepChosenInSight).observe(byId("views"));
   mountTools();
   mountShowing();
@@ -96,11 +107,15 @@ function showView(state: Readonly<State>): void {
   byId("view-choices").replaceChildren(...view.settings(state).map(control));
 }
 
-function set<K extends keyof ViewParams>(key: K, value: ViewParams[K]): void {
-  store.update({ viewParams: { ...store.state.viewParams, [key]: value } });
+function set<K extends keyof ViewParams>(
+  key: K,
+  value: ViewParams[K],
+  also: Partial<ViewParams> = {},
+): void {
+  store.update({ viewParams: { ...store.state.viewParams, ...also, [key]: value } });
 }
 
-function control({ key, label, choices, range }: Setting): HTMLElement {
+function control({ key, label, choices, range, percent, also }: Setting): HTMLElement {
   const present = store.state.viewParams[key];
   const id = `setting-${key}`;
   if (choices) {
@@ -112,13 +127,21 @@ function control({ key, label, choices, range }: Setting): HTMLElement {
   }
   if (range) {
     const slider = make("input", { type: "range", id, ...range });
+    const output = make("output", { for: id });
+    const tell = () => {
+      const value = Number(slider.value);
+      output.textContent = percent
+        ? `${Number((100 * value).toFixed(2))}\u00a0%`
+        : number(value, 2);
+      slider.setAttribute("aria-valuetext", output.textContent);
+    };
     slider.value = String(present);
-    slider.setAttribute("aria-valuetext", number(Number(present), 2));
     slider.addEventListener("input", () => {
-      slider.setAttribute("aria-valuetext", number(Number(slider.value), 2));
-      set(key, Number(slider.value) as never);
+      tell();
+      set(key, Number(slider.value) as never, also);
     });
-    return make("label", { class: "field" }, make("span", {}, label), slider);
+    tell();
+    return make("label", { class: "field" }, make("span", {}, label), slider, output);
   }
   const box = make("input", { type: "checkbox", id });
   box.checked = present === true;

@@ -4,9 +4,13 @@ import {
   AmbientLight,
   BufferAttribute,
   BufferGeometry,
+  Color,
   DirectionalLight,
   DoubleSide,
+  Material,
   Mesh,
+  MeshBasicMaterial,
+  MeshNormalMaterial,
   MeshStandardMaterial,
   PerspectiveCamera,
   Scene,
@@ -31,6 +35,12 @@ const NEAREST = 1;
 const FARTHEST = 12;
 /** Warm white, as of unfired clay. */
 const PLASTER = 0xe4e0d8;
+/** The same where it goes on hidden. */
+const HIDDEN = 0x77736c;
+/** Opacity of what is of unknown depth. */
+const GHOST = 0.22;
+
+export type Surface = "textured" | "plaster" | "wireframe" | "normals";
 
 export class Scenery {
   readonly canvas: HTMLCanvasElement;
@@ -39,15 +49,20 @@ export class Scenery {
   private readonly camera = new PerspectiveCamera(38, 1, 0.05, 30);
   private readonly controls: OrbitControls;
   private readonly light = new DirectionalLight(0xffffff, 2.6);
-  private readonly material = new MeshStandardMaterial({ side: DoubleSide, roughness: 0.92 });
-  private readonly surface = new Mesh(new BufferGeometry(), this.material);
+  /** Of what is seen, of what goes on hidden behind it, and of ghosts. */
+  private materials: Material[] = [];
+  private readonly surface = new Mesh(new BufferGeometry(), this.materials);
   private texture: CanvasTexture | null = null;
-  private plaster = false;
+  private dress: [Surface, boolean] = ["textured", true];
   private waiting = false;
   /** Nobody has turned the surface or come closer: the eye keeps all of it in view. */
   private atHome = true;
 
-  constructor(private readonly place: HTMLElement) {
+  /** `drawn` is called whenever the picture has changed. */
+  constructor(
+    private readonly place: HTMLElement,
+    private readonly drawn: () => void,
+  ) {
     this.renderer = new WebGLRenderer({
       antialias: true,
       alpha: true,
@@ -59,7 +74,7 @@ export class Scenery {
     this.canvas.setAttribute("role", "application");
     this.canvas.setAttribute(
       "aria-label",
-      "Relief. Arrow keys turn it, plus and minus come closer and go away, Home looks from the front.",
+      "Relief. Arrow keys turn it, with Shift they move the light; plus and minus come closer and go away, Home looks from the front.",
     );
     place.append(this.canvas);
     this.scene.add(this.surface, this.light, new AmbientLight(0xffffff, 0.75));
@@ -68,18 +83,28 @@ export class Scenery {
     this.controls.minDistance = NEAREST;
     this.controls.maxDistance = FARTHEST;
     this.controls.addEventListener("change", () => this.invalidate());
+    // It would keep fingers from scrolling the page; `touch.ts` says when it may.
+    this.canvas.style.removeProperty("touch-action");
     this.controls.addEventListener("start", () => (this.atHome = false));
+    this.setMaterial(...this.dress);
     this.home();
+    this.lamp = [-0.55, 0.55, 0.63];
     new ResizeObserver(() => this.resize()).observe(place);
     this.resize();
   }
 
-  setMesh({ positions, normals, uvs, indices }: MeshData): void {
+  setMesh({ positions, normals, uvs, colours, indices, parts }: MeshData): void {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(positions, 3));
     geometry.setAttribute("normal", new BufferAttribute(normals, 3));
     geometry.setAttribute("uv", new BufferAttribute(uvs, 2));
+    geometry.setAttribute("color", new BufferAttribute(linear(colours), 3));
     geometry.setIndex(new BufferAttribute(indices, 1));
+    let start = 0;
+    for (const [i, count] of parts.entries()) {
+      geometry.addGroup(start, count, i);
+      start += count;
+    }
     this.surface.geometry.dispose();
     this.surface.geometry = geometry;
     this.surface.position.copy(this.middle().negate());
@@ -97,20 +122,52 @@ export class Scenery {
     this.texture = new CanvasTexture(canvas);
     this.texture.colorSpace = SRGBColorSpace;
     this.texture.anisotropy = this.renderer.capabilities.getMaxAnisotropy();
-    this.setMaterial(this.plaster);
+    this.setMaterial(...this.dress);
   }
 
-  setMaterial(plaster: boolean): void {
-    this.plaster = plaster;
-    this.material.map = plaster ? null : this.texture;
-    this.material.color.set(plaster ? PLASTER : 0xffffff);
-    this.material.needsUpdate = true;
+  setMaterial(surface: Surface, ghosts: boolean): void {
+    this.dress = [surface, ghosts];
+    this.materials.forEach((material) => material.dispose());
+    const cast = (color: number) =>
+      new MeshStandardMaterial({
+        side: DoubleSide,
+        roughness: 0.92,
+        color,
+        wireframe: surface === "wireframe",
+      });
+    const [seen, hidden] = [cast(PLASTER), cast(HIDDEN)];
+    if (surface === "textured") {
+      seen.map = this.texture;
+      seen.color.set(0xffffff);
+      hidden.vertexColors = true;
+      hidden.color.set(0xffffff);
+    }
+    const ghost = new MeshBasicMaterial({
+      side: DoubleSide,
+      transparent: true,
+      opacity: surface === "wireframe" ? GHOST / 2 : GHOST,
+      depthWrite: false,
+      visible: ghosts,
+      wireframe: surface === "wireframe",
+      map: surface === "textured" ? this.texture : null,
+    });
+    this.materials =
+      surface === "normals"
+        ? [new MeshNormalMaterial({ side: DoubleSide }), hidden, ghost]
+        : [seen, hidden, ghost];
+    this.surface.material = this.materials;
     this.invalidate();
   }
 
-  /** Light from `angle` about the line of sight, 0 from the right, a quarter turn from above. */
-  setLight(angle: number): void {
-    this.light.position.set(1.4 * Math.cos(angle), 1.4 * Math.sin(angle), 1.3);
+  /** Where light comes from as the eye sees it: x to the right, y up, z towards the eye. */
+  get lamp(): [number, number, number] {
+    const turned = this.camera.quaternion.clone().invert();
+    return this.light.position.clone().normalize().applyQuaternion(turned).toArray();
+  }
+
+  set lamp(from: [number, number, number]) {
+    const direction = new Vector3(...from).normalize().applyQuaternion(this.camera.quaternion);
+    this.light.position.copy(direction).multiplyScalar(2);
     this.invalidate();
   }
 
@@ -202,5 +259,17 @@ export class Scenery {
   private render(): void {
     if (this.place.hidden) return;
     this.renderer.render(this.scene, this.camera);
+    this.drawn();
   }
+}
+
+/** Colours as three.js computes with them. */
+function linear(colours: Uint8Array): Float32Array {
+  const light = new Float32Array(colours.length);
+  const colour = new Color();
+  for (let i = 0; i < colours.length; i += 3) {
+    const [r, g, b] = [colours[i]!, colours[i + 1]!, colours[i + 2]!];
+    colour.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace).toArray(light, i);
+  }
+  return light;
 }

@@ -31,7 +31,9 @@ export async function load(): Promise<void> {
 }
 
 export function catalogues(): Catalogues {
-  const { views, palettes, glasses, colours } = JSON.parse(viewCatalogue()) as ViewCatalogue;
+  const { views, palettes, glasses, methods, layouts, colours } = JSON.parse(
+    viewCatalogue(),
+  ) as ViewCatalogue;
   return {
     options: JSON.parse(optionCatalogue()),
     presets: JSON.parse(presetCatalogue()),
@@ -40,6 +42,8 @@ export function catalogues(): Catalogues {
     views,
     palettes,
     glasses,
+    methods,
+    layouts,
     colours,
   };
 }

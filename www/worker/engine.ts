@@ -350,8 +350,8 @@ export class Engine {
     const given = JSON.stringify({ ...params, pixels: MOST_PIXELS });
     const mesh = (this.restored?.kept ?? solver).mesh(given);
     try {
-      const { positions, normals, uvs, indices } = mesh;
-      return { positions, normals, uvs, indices };
+      const { positions, normals, uvs, colours, indices, parts } = mesh;
+      return { positions, normals, uvs, colours, indices, parts };
     } finally {
       mesh.free();
     }

@@ -173,7 +173,11 @@ export interface MeshData {
   positions: Float32Array<ArrayBuffer>;
   normals: Float32Array<ArrayBuffer>;
   uvs: Float32Array<ArrayBuffer>;
+  /** sRGB, three bytes. */
+  colours: Uint8Array<ArrayBuffer>;
   indices: Uint32Array<ArrayBuffer>;
+  /** How many indices are of what is seen, of what goes on hidden behind it, and of what is of unknown depth. */
+  parts: Uint32Array<ArrayBuffer>;
 }
 
 /** What the worker sends; the next is sent only once the page has drawn this one. */
@@ -218,6 +222,10 @@ export interface Catalogues {
   palettes: Choice[];
   /** Glasses for the anaglyph. */
   glasses: Choice[];
+  /** By what each of them is served, with its source. */
+  methods: string[];
+  /** Ways to lay out a stereo pair. */
+  layouts: Choice[];
   limits: Limits;
   /** One CSS colour per label. */
   colours: string[];

@@ -148,8 +148,7 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
   let mesh: Progress["mesh"] = null;
   if (wanted.mesh && meshIsDue(to, report.iterations)) {
     mesh = engine.mesh(wanted.mesh);
-    const { positions, normals, uvs, indices } = mesh;
-    transfer.push(positions.buffer, normals.buffer, uvs.buffer, indices.buffer);
+    transfer.push(...Object.values(mesh).map(({ buffer }) => buffer));
     to.mesh = { iterations: report.iterations, at: performance.now() };
   }
   const scores = engine.scores();

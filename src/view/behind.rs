@@ -1,0 +1,201 @@
+//! The surface that goes on behind a silhouette.
+//!
+//! Across a cut, a border of regions or a leap of depth, the farther side is hidden by the nearer. It is continued under
+//! it, ring by ring, as far as [`Cut::furthest`]; there its 1/Z is what solves
+//!
+//! ```text
+//! Δ(1/Z) = 0
+//! ```
+//!
+//! with the 1/Z that is seen along the cut: a plane so goes on as the plane that it is. Its colours are mirrored at the
+//! cut and then smoothed. It stops where it would come before what is seen.
+
+use std::collections::VecDeque;
+
+use super::layers::{Layer, NOTHING};
+use super::leaps::Leap;
+use crate::grid::Grid;
+
+/// How far behind what hides it a surface lies at least, as a share of 1/Z.
+const APART: f32 = 0.02;
+/// Sweeps of successive over-relaxation, and its factor. They end when the eye sees no difference, which is long before
+/// the last digit.
+const SWEEPS: usize = 40;
+const OVER: f32 = 1.85;
+/// Sweeps that smooth the mirrored colours.
+const SMOOTHED: usize = 6;
+
+/// What parts the nearer from the farther.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Cut {
+    /// A border between regions.
+    Border,
+    /// A leap within one.
+    Leap,
+}
+
+impl Cut {
+    /// How far a surface is continued, as a share of the longer side. A body may be seen past altogether; a leap is often
+    /// no more than an edge.
+    fn furthest(self) -> f32 {
+        match self {
+            Self::Border => 0.5,
+            Self::Leap => 0.2,
+        }
+    }
+}
+
+/// What is hidden behind `seen` across one kind of cut, nothing where nothing is known to be.
+pub(super) fn behind(seen: &Layer, leap: Leap, cut: Cut) -> Layer {
+    let (width, height) = (seen.rho.width(), seen.rho.height());
+    let mut hidden = Layer {
+        labels: Grid::new(width, height, NOTHING),
+        rho: Grid::new(width, height, 0.0),
+        colours: Grid::new(width, height, [0; 3]),
+        known: Grid::new(width, height, false),
+    };
+    let order = flood(seen, &mut hidden, leap, cut);
+    relax(seen, &mut hidden, &order, leap);
+    smooth(&mut hidden, &order);
+    hidden
+}
+
+/// The nearer and the farther of two neighbours that a cut parts; `None` where there is none.
+fn farther(seen: &Layer, leap: Leap, cut: Cut, p: usize, q: usize) -> Option<(usize, usize)> {
+    let (a, b) = (seen.labels.data()[p], seen.labels.data()[q]);
+    let (near, far) = (seen.rho.data()[p], seen.rho.data()[q]);
+    let first = match cut {
+        Cut::Leap if a == b && leap.between(near, far) => near > far,
+        Cut::Border if a != b => b == 0 || (a != 0 && near > far),
+        _ => return None,
+    };
+    Some(if first { (p, q) } else { (q, p) })
+}
+
+/// Neighbours above, below and beside.
+fn beside(i: usize, width: usize, height: usize) -> impl Iterator<Item = usize> {
+    let (x, y) = (i % width, i / width);
+    [
+        (x > 0).then(|| i - 1),
+        (x + 1 < width).then(|| i + 1),
+        (y > 0).then(|| i - width),
+        (y + 1 < height).then(|| i + width),
+    ]
+    .into_iter()
+    .flatten()
+}
+
+/// Continues every surface, with the values of the nearest pixel that is seen of it; gives what was reached, in order.
+fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap, cut: Cut) -> Vec<usize> {
+    let (width, height) = (seen.rho.width(), seen.rho.height());
+    let furthest = (cut.furthest() * width.max(height) as f32) as u32;
+    let (labels, rho) = (seen.labels.data(), seen.rho.data());
+    let mut queue = VecDeque::new();
+    for p in 0..labels.len() {
+        for q in [
+            (p % width + 1 < width).then(|| p + 1),
+            (p + width < labels.len()).then(|| p + width),
+        ] {
+            if let Some((near, far)) = q.and_then(|q| farther(seen, leap, cut, p, q)) {
+                queue.push_back((near, far, 1));
+            }
+        }
+    }
+    let mut order = Vec::new();
+    while let Some((at, source, far)) = queue.pop_front() {
+        let label = labels[source];
+        // Regions lie before the background, whatever their depth.
+        let in_front = match (labels[at], label) {
+            (1.., 0) => true,
+            (0, 1..) => false,
+            _ => rho[at] > (1.0 + APART) * rho[source],
+        };
+        if hidden.labels.data()[at] != NOTHING || !in_front {
+            continue;
+        }
+        hidden.labels.data_mut()[at] = label;
+        hidden.rho.data_mut()[at] = rho[source];
+        hidden.colours.data_mut()[at] = mirrored(seen, at, source);
+        hidden.known.data_mut()[at] = seen.known.data()[source];
+        order.push(at);
+        if far < furthest {
+            queue.extend(beside(at, width, height).map(|next| (next, source, far + 1)));
+        }
+    }
+    order
+}
+
+/// The colour as far on the seen side of `source` as `at` lies on the hidden one.
+fn mirrored(seen: &Layer, at: usize, source: usize) -> [u8; 3] {
+    let (width, height) = (seen.rho.width(), seen.rho.height());
+    let image = |a: usize, s: usize, side: usize| {
+        let there = (2 * s + usize::from(s < a)).checked_sub(a + usize::from(s > a));
+        there.filter(|&c| c < side)
+    };
+    let there = image(at % width, source % width, width)
+        .zip(image(at / width, source / width, height))
+        .filter(|&place| {
+            let i = place.1 * width + place.0;
+            seen.labels.data()[i] == seen.labels.data()[source]
+                && seen.rho.data()[i] < (1.0 + 2.0 * APART) * seen.rho.data()[source]
+        });
+    there.map_or(seen.colours.data()[source], |place| seen.colours[place])
+}
+
+fn relax(seen: &Layer, hidden: &mut Layer, order: &[usize], leap: Leap) {
+    let (width, height) = (seen.rho.width(), seen.rho.height());
+    let behind = |rho: f32, at: usize| rho.min(seen.rho.data()[at] / (1.0 + APART));
+    // What is seen of the surface lies across the cut.
+    let parted = |at: usize, next: usize| {
+        let (near, far) = (seen.rho.data()[at], seen.rho.data()[next]);
+        seen.labels.data()[at] != seen.labels.data()[next]
+            || (near > far && leap.between(near, far))
+    };
+    // A ghost is flat.
+    let order: Vec<usize> = order
+        .iter()
+        .copied()
+        .filter(|&at| hidden.known.data()[at])
+        .collect();
+    for _ in 0..SWEEPS {
+        for &at in &order {
+            let label = hidden.labels.data()[at];
+            let here = hidden.rho.data()[at];
+            let (mut sum, mut count) = (0.0, 0.0);
+            for next in beside(at, width, height) {
+                let value = if hidden.labels.data()[next] == label {
+                    hidden.rho.data()[next]
+                } else if seen.labels.data()[next] == label && parted(at, next) {
+                    seen.rho.data()[next]
+                } else {
+                    continue;
+                };
+                sum += value;
+                count += 1.0;
+            }
+            if count > 0.0 {
+                hidden.rho.data_mut()[at] =
+                    behind((here + OVER * (sum / count - here)).max(0.5 * here), at);
+            }
+        }
+    }
+}
+
+fn smooth(hidden: &mut Layer, order: &[usize]) {
+    let (width, height) = (hidden.rho.width(), hidden.rho.height());
+    for _ in 0..SMOOTHED {
+        for &at in order {
+            let label = hidden.labels.data()[at];
+            let own = hidden.colours.data()[at].map(u32::from);
+            let (mut sum, mut count) = (own.map(|c| 2 * c), 2);
+            for next in beside(at, width, height) {
+                if hidden.labels.data()[next] == label {
+                    let colour = hidden.colours.data()[next];
+                    sum = std::array::from_fn(|i| sum[i] + u32::from(colour[i]));
+                    count += 1;
+                }
+            }
+            hidden.colours.data_mut()[at] = sum.map(|c| ((c + count / 2) / count) as u8);
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! Where depth leaps within a region: one surface ends there, and another goes on behind it.
+//!
+//! Solvers spread a leap over some pixels. It is one where 1/Z changes within [`REACH`] pixels by half of what it does
+//! within [`BEYOND`]; a plane changes by a third. Between the least and the greatest 1/Z of the latter,
+//!
+//! ```text
+//! ψ = (blurred 1/Z − (least + greatest)/2) / (greatest − least)
+//! ```
+//!
+//! is positive on the nearer side and negative on the farther one; its zero is the outline between pixels. What lies in
+//! between takes the depth of the side that it is on, so that nothing spans the leap.
+
+use crate::grid::Grid;
+
+/// Pixels on each side over which a leap may be spread.
+const REACH: usize = 5;
+/// Where, in pixels, it is looked whether a change goes on, and the least share of it all that a leap is.
+const BEYOND: usize = 14;
+const CONCENTRATED: f32 = 0.55;
+/// The shares of the ranges of 1/Z and of Z that are drawn from which a change is a leap: less is a step within one thing.
+const SHARE: [f32; 2] = [0.15, 0.12];
+/// The least ratio of depths that is one: a shallow relief is drawn deeper than it is.
+const RATIO: f32 = 1.12;
+/// Binomial weights, σ ≈ 1.2 pixels: they round the stairs of labels and leave curves where they are.
+pub(super) const LABELS: [f32; 7] = [1.0, 6.0, 15.0, 20.0, 15.0, 6.0, 1.0];
+/// The same, σ ≈ 1.6 pixels, for outlines within a region, which are found less exactly.
+const DEPTHS: [f32; 11] = [
+    1.0, 10.0, 45.0, 120.0, 210.0, 252.0, 210.0, 120.0, 45.0, 10.0, 1.0,
+];
+
+/// What makes a leap of a change of 1/Z.
+#[derive(Clone, Copy)]
+pub(super) struct Leap {
+    /// Least differences of 1/Z and of Z.
+    least: [f32; 2],
+}
+
+impl Leap {
+    /// For a picture whose 1/Z goes from `far` to `near`.
+    pub fn of(far: f32, near: f32) -> Self {
+        Self {
+            least: [SHARE[0] * (near - far), SHARE[1] * (1.0 / far - 1.0 / near)],
+        }
+    }
+
+    /// A change half as large.
+    pub fn half(self) -> Self {
+        Self {
+            least: self.least.map(|least| least / 2.0),
+        }
+    }
+
+    /// Whether there is one between two inverse depths.
+    pub fn between(self, a: f32, b: f32) -> bool {
+        let (low, high) = (a.min(b), a.max(b));
+        // Z's difference, times the product of both 1/Z.
+        let apart = high - low;
+        high > RATIO * low && (apart > self.least[0] || apart > self.least[1] * low * high)
+    }
+}
+
+/// Where depth leaps within the regions of `labels`.
+pub(super) fn leaping(rho: &Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Grid<bool> {
+    let low = window(rho, f32::min);
+    let high = window(rho, f32::max);
+    Grid::from_fn(rho.width(), rho.height(), |x, y| {
+        let at = (x, y);
+        // Over all regions first, which is quick and never misses one.
+        leap.between(low[at], high[at]) && {
+            let around = Around::new(rho, labels, at);
+            leap.between(around.low, around.high) && {
+                let (low, high) = beyond(rho, labels, at, &around);
+                // A steep plane goes on changing.
+                around.high - around.low > CONCENTRATED * (high - low)
+            }
+        }
+    })
+}
+
+/// The least and the greatest 1/Z of a pixel's region around it and [`BEYOND`] it.
+fn beyond(
+    rho: &Grid<f32>,
+    labels: &Grid<u8>,
+    (x, y): (usize, usize),
+    around: &Around,
+) -> (f32, f32) {
+    let (mut low, mut high) = (around.low, around.high);
+    for y in [y.checked_sub(BEYOND), Some(y), Some(y + BEYOND)] {
+        for x in [x.checked_sub(BEYOND), Some(x), Some(x + BEYOND)] {
+            let Some(place) = x.zip(y).filter(|p| p.0 < rho.width() && p.1 < rho.height()) else {
+                continue;
+            };
+            if labels[place] == around.label {
+                (low, high) = (low.min(rho[place]), high.max(rho[place]));
+            }
+        }
+    }
+    (low, high)
+}
+
+/// Sharpens the leaps of `rho` within the regions of `labels` and gives ψ, not a number where depth does not leap.
+pub(super) fn sharpen(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Grid<f32> {
+    let (width, height) = (rho.width(), rho.height());
+    let leaps = leaping(rho, labels, leap);
+    let mut psi = Grid::new(width, height, f32::NAN);
+    let blunt = rho.clone();
+    for y in 0..height {
+        for x in 0..width {
+            if !leaps[(x, y)] {
+                continue;
+            }
+            let around = Around::new(&blunt, labels, (x, y));
+            let range = around.high - around.low;
+            let (low, high) = beyond(&blunt, labels, (x, y), &around);
+            let side = around.blurred - (low + high) / 2.0;
+            psi[(x, y)] = side / (high - low);
+            let here = blunt[(x, y)];
+            rho[(x, y)] = if side >= 0.0 {
+                if here < around.high - 0.1 * range {
+                    around.near
+                } else {
+                    here
+                }
+            } else if here > around.low + 0.1 * range {
+                around.far
+            } else {
+                here
+            };
+        }
+    }
+    psi
+}
+
+/// What a region has within [`REACH`] of a pixel.
+struct Around {
+    label: u8,
+    low: f32,
+    high: f32,
+    blurred: f32,
+    /// Means of the nearest and of the farthest quarter of the range.
+    near: f32,
+    far: f32,
+}
+
+impl Around {
+    fn new(rho: &Grid<f32>, labels: &Grid<u8>, at: (usize, usize)) -> Self {
+        let label = labels[at];
+        let mut values = [(0.0f32, 0.0f32); DEPTHS.len() * DEPTHS.len()];
+        let mut count = 0;
+        let (mut low, mut high, mut sum, mut weights) = (f32::INFINITY, 0.0f32, 0.0, 0.0);
+        for (place, weight) in neighbourhood(&DEPTHS, rho.width(), rho.height(), at) {
+            if labels[place] != label {
+                continue;
+            }
+            let value = rho[place];
+            (low, high) = (low.min(value), high.max(value));
+            sum += weight * value;
+            weights += weight;
+            values[count] = (value, weight);
+            count += 1;
+        }
+        let mean = |keep: &dyn Fn(f32) -> bool| {
+            let kept = values[..count].iter().filter(|(value, _)| keep(*value));
+            let (sum, all) = kept.fold((0.0, 0.0), |(s, a), (v, w)| (s + v * w, a + w));
+            sum / f32::max(all, 1e-9)
+        };
+        let quarter = 0.25 * (high - low);
+        Self {
+            label,
+            low,
+            high,
+            blurred: sum / weights,
+            near: mean(&|value| value >= high - quarter),
+            far: mean(&|value| value <= low + quarter),
+        }
+    }
+}
+
+/// The pixels around `at` that lie in the picture, with their weights.
+pub(super) fn neighbourhood<const N: usize>(
+    weights: &'static [f32; N],
+    width: usize,
+    height: usize,
+    (x, y): (usize, usize),
+) -> impl Iterator<Item = ((usize, usize), f32)> {
+    (0..N).flat_map(move |j| {
+        (0..N).filter_map(move |i| {
+            let (x, y) = ((x + i).checked_sub(N / 2)?, (y + j).checked_sub(N / 2)?);
+            (x < width && y < height).then(|| ((x, y), weights[i] * weights[j]))
+        })
+    })
+}
+
+/// The least or greatest value within [`REACH`] of each pixel.
+pub(super) fn window<T: Copy>(grid: &Grid<T>, choose: fn(T, T) -> T) -> Grid<T> {
+    let (width, height) = (grid.width(), grid.height());
+    let around = |at: usize, side: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(side);
+    let across = Grid::from_fn(width, height, |x, y| {
+        let row = grid.row(y);
+        row[around(x, width)].iter().copied().fold(row[x], choose)
+    });
+    Grid::from_fn(width, height, |x, y| {
+        around(y, height).fold(across[(x, y)], |a, y| choose(a, across[(x, y)]))
+    })
+}

@@ -1,0 +1,126 @@
+//! Depth without what nobody would believe: where it is barely observable, it is its region's around it.
+//!
+//! ```text
+//! 1/Z' = c/Z + (1 − c) · (G ∗ c/Z) / (G ∗ c)      c the confidence, full from ½ on; G a Gaussian
+//! ```
+//!
+//! within each region. Where even G ∗ c is next to nothing, depth is not known. Pixels that stand out singly take their
+//! neighbourhood's median, and what is left is averaged over five by five pixels, never across a leap.
+
+use super::leaps::{Leap, window};
+use crate::frames::blur;
+use crate::grid::Grid;
+use crate::interpretation::Interpretation;
+use crate::window::Window;
+
+/// σ of G as a share of the longer side, and at most, in pixels.
+const WIDTH: (f32, f32) = (1.0 / 40.0, 10.0);
+/// Confidence from which a depth is taken as it is.
+const FULL: f32 = 0.5;
+/// The least G ∗ c of a known depth.
+const SUPPORT: f32 = 0.04;
+
+/// Steadies `rho` in the regions that are `known`; gives whether each pixel's depth is.
+pub(super) fn steadied(rho: &mut Grid<f32>, found: &Interpretation, known: &[bool]) -> Grid<bool> {
+    let (width, height) = (rho.width(), rho.height());
+    let sigma = (WIDTH.0 * width.max(height) as f32).min(WIDTH.1);
+    let mut told = found.labels.map(|label| known[usize::from(label)]);
+    let trust = found
+        .confidence
+        .map(|c| if c > 0.0 { (c / FULL).min(1.0) } else { 0.0 });
+    for k in (0..=u8::MAX)
+        .take(known.len())
+        .filter(|&k| known[usize::from(k)])
+    {
+        let own = |i: usize| found.labels.data()[i] == k;
+        let doubtful = (0..rho.len()).any(|i| own(i) && trust.data()[i] < 1.0);
+        let Some(w) = Window::around(width, height, own).filter(|_| doubtful) else {
+            continue;
+        };
+        let place = |x: usize, y: usize| (w.left + x, w.top + y);
+        let masked = |value: &dyn Fn((usize, usize)) -> f32| {
+            let inside = Grid::from_fn(w.width, w.height, |x, y| {
+                let at = place(x, y);
+                if found.labels[at] == k {
+                    value(at)
+                } else {
+                    0.0
+                }
+            });
+            blur(&inside, f64::from(sigma))
+        };
+        let weights = masked(&|at| trust[at]);
+        let sums = masked(&|at| trust[at] * rho[at]);
+        for y in 0..w.height {
+            for x in 0..w.width {
+                let at = place(x, y);
+                if found.labels[at] != k {
+                    continue;
+                }
+                let weight = weights[(x, y)];
+                told[at] = weight > SUPPORT;
+                let around = sums[(x, y)] / weight;
+                if around > 0.0 {
+                    rho[at] = trust[at] * rho[at] + (1.0 - trust[at]) * around;
+                }
+            }
+        }
+    }
+    told
+}
+
+/// Replaces `rho` by the median of its region within two pixels, where it changes by half a leap nearby.
+pub(super) fn median(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
+    let (low, high) = (window(rho, f32::min), window(rho, f32::max));
+    let leap = leap.half();
+    let noisy = rho.clone();
+    let mut values = Vec::with_capacity(25);
+    for y in 0..rho.height() {
+        for x in 0..rho.width() {
+            if !leap.between(low[(x, y)], high[(x, y)]) {
+                continue;
+            }
+            values.clear();
+            let own = around(&noisy, (x, y)).filter(|&p| labels[p] == labels[(x, y)]);
+            values.extend(own.map(|p| noisy[p]));
+            let middle = values.len() / 2;
+            rho[(x, y)] = *values.select_nth_unstable_by(middle, f32::total_cmp).1;
+        }
+    }
+}
+
+/// Replaces `rho` by the mean of its region within two pixels, but for what lies across a leap. Pixels count in pairs on
+/// opposite sides, so that a plane stays one.
+pub(super) fn mean(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
+    let noisy = rho.clone();
+    for y in 0..rho.height() {
+        for x in 0..rho.width() {
+            let (label, here) = (labels[(x, y)], noisy[(x, y)]);
+            let (mut sum, mut count) = (here, 1.0);
+            for p in around(&noisy, (x, y)).take_while(|&p| p != (x, y)) {
+                let q = (2 * x - p.0, 2 * y - p.1);
+                if [p, q]
+                    .iter()
+                    .all(|&p| labels[p] == label && !leap.between(noisy[p], here))
+                {
+                    sum += noisy[p] + noisy[q];
+                    count += 2.0;
+                }
+            }
+            rho[(x, y)] = sum / count;
+        }
+    }
+}
+
+/// The pixels within two of `at`, fewer at the border, always as many on both sides.
+fn around(
+    grid: &Grid<f32>,
+    (x, y): (usize, usize),
+) -> impl Iterator<Item = (usize, usize)> + use<> {
+    let range = |at: usize, side: usize| {
+        let reach = at.min(side - 1 - at).min(2);
+        at - reach..at + reach + 1
+    };
+    let columns = range(x, grid.width());
+    range(y, grid.height()).flat_map(move |y| columns.clone().map(move |x| (x, y)))
+}

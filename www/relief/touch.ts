@@ -1,0 +1,22 @@
+/** A finger scrolls the page until it has tapped the relief; then it turns it, until something else is tapped. */
+
+import { make } from "../dom";
+
+export function mountTouch(place: HTMLElement, canvas: HTMLCanvasElement): void {
+  const note = make("p", { class: "tap", "aria-hidden": "true" }, "Tap to turn");
+  place.append(note);
+  const hold = (held: boolean) => place.classList.toggle("held", held);
+  // Before the controls of the eye hear of it.
+  place.addEventListener(
+    "pointerdown",
+    (event) => {
+      const scrolls = event.pointerType === "touch" && !place.classList.contains("held");
+      if (scrolls && event.target === canvas) event.stopPropagation();
+    },
+    { capture: true },
+  );
+  canvas.addEventListener("click", () => hold(true));
+  document.addEventListener("pointerdown", (event) => {
+    if (!place.contains(event.target as Node)) hold(false);
+  });
+}
