@@ -83,13 +83,10 @@ impl Rig {
         };
         // A plane that faces the camera has no parallax to stretch.
         let range = (near - far).max(0.02 * near);
-        let share = params.convergence.map_or_else(
-            || {
-                let nearest = percentile(&mut border, 0.95).unwrap_or(near);
-                f64::from(((nearest - far) / range).clamp(LEAST_BEHIND, 1.0))
-            },
-            |share| share,
-        );
+        let share = params.convergence.unwrap_or_else(|| {
+            let nearest = percentile(&mut border, 0.95).unwrap_or(near);
+            f64::from(((nearest - far) / range).clamp(LEAST_BEHIND, 1.0))
+        });
         let convergence = f64::from(far) + share * f64::from(range);
         let widest = f64::from(range) * share.max(1.0 - share);
         let pixels = params.baseline * width as f64;

@@ -54,7 +54,13 @@ export function mountGlasses(): void {
   const still = matchMedia("(prefers-reduced-motion: reduce)");
 
   store.watch(
-    ({ view, viewParams }) => [view, viewParams.presentation],
+    ({ view, viewParams, split, catalogues, truth }) => [
+      view,
+      viewParams.presentation,
+      split === null,
+      catalogues,
+      truth,
+    ],
     (state) => {
       const { view, viewParams } = state;
       element.hidden = !paired(state);
@@ -62,6 +68,8 @@ export function mountGlasses(): void {
         viewParams.presentation === "wiggle"
           ? "Left and right eye's picture in turn"
           : "Left and right eye's picture side by side";
+      // Places and pixels of one picture mean nothing on two.
+      for (const id of ["overlay", "zoom"]) byId(id).hidden = paired(state) || view === "relief";
       bar.hidden = view !== "anaglyph" && view !== "relief";
       pause.hidden = !wiggling(state);
       turn(wiggling(state) && !still.matches);
@@ -81,8 +89,8 @@ export function mountGlasses(): void {
   );
 }
 
-const paired = ({ view, viewParams }: Readonly<State>) =>
-  view === "anaglyph" && viewParams.presentation !== "anaglyph";
+const paired = ({ view, viewParams, split }: Readonly<State>) =>
+  view === "anaglyph" && viewParams.presentation !== "anaglyph" && !split;
 
 const wiggling = (state: Readonly<State>) =>
   paired(state) && state.viewParams.presentation === "wiggle";
