@@ -1,8 +1,9 @@
 // The built-in sequences solved once, in recordings/: what the page shows before its own solver is there.
 //
 // A recording is, little-endian: the length of its first part (u32); the first part, deflated: the length of a JSON head
-// (u32), the head, and pictures of depth, one byte a sample, all red, then all green, then all blue, each sample less its
-// left neighbour; and the second part, deflated: the result, as `Kept` reads it. Beside it lies a thumbnail.
+// (u32), the head, and for each pass a picture of depth, one byte a sample, all red, then all green, then all blue, each
+// sample less its left neighbour, and the solver's state, as far as there are any; and the second part, deflated: the
+// result, as `Kept` reads it. Beside it lies a thumbnail.
 
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -19,7 +20,9 @@ const SOURCES = ["pkg/relievo_bg.wasm", "scripts/recordings.js"];
 const SIZE = [320, 240];
 const THUMBNAIL = [144, 108];
 /** Bytes that a recording may take. */
-const MOST_BYTES = 200_000;
+const MOST_BYTES = 240_000;
+/** Bytes that a state may take: one with depth pixel by pixel is left out, since the result shows it. */
+const MOST_STATE = 100_000;
 
 /** Makes them, unless they are made from this core already. */
 export async function recordings() {
@@ -76,7 +79,7 @@ function recordingOf(core, name) {
     "{}",
   );
   const passes = [];
-  const pictures = [];
+  const parts = [];
   let last = "";
   do {
     solver.step();
@@ -86,11 +89,15 @@ function recordingOf(core, name) {
     const print = Buffer.from(picture.bytes).toString("base64");
     const same = print === last && !over;
     last = print;
-    if (!same) pictures.push(picture.bytes);
+    if (!same) parts.push(picture.bytes);
+    const whole = solver.state();
+    const state = whole.length > MOST_STATE ? new Uint8Array() : whole;
+    parts.push(state);
     passes.push({
       report: { ...JSON.parse(solver.report()), seconds: NO_TIME },
       contours: contoursOf(solver, over ? 2 : 1),
       picture: same ? null : { width: picture.width, height: picture.height },
+      state: state.length,
     });
   } while (solver.status === "running");
   const head = {
@@ -104,7 +111,7 @@ function recordingOf(core, name) {
     passes,
   };
   const text = Buffer.from(JSON.stringify(head));
-  const first = deflateRawSync(Buffer.concat([length(text), text, ...pictures]), { level: 9 });
+  const first = deflateRawSync(Buffer.concat([length(text), text, ...parts]), { level: 9 });
   const second = deflateRawSync(solver.keep(true), { level: 9 });
   return Buffer.concat([length(first), first, second]);
 }

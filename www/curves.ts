@@ -6,7 +6,8 @@
 
 import { announce } from "./dom";
 import { present, recorded } from "./memory/history";
-import { ask, configure, look } from "./session";
+import { look } from "./looking";
+import { ask, configure } from "./session";
 import { store, type State } from "./store";
 import { findingOf } from "./wording";
 import type { Point, Shape } from "./worker/protocol";

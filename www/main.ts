@@ -38,6 +38,7 @@ import { mountReadout } from "./stage/readout";
 import { mountStage } from "./stage/stage";
 import { mountTools } from "./stage/tools";
 import { mountZoom } from "./stage/zoom";
+import { mountTimeline } from "./timeline/timeline";
 import { store } from "./store";
 
 byId("about").innerHTML = about;
@@ -53,6 +54,7 @@ mountDivider();
 mountReadout();
 mountLegend();
 mountViewbar();
+mountTimeline();
 mountTransport();
 mountProgress();
 mountFrames();

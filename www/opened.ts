@@ -41,6 +41,7 @@ export function adopt(
     scores: null,
     held: null,
     heldFound: null,
+    ...NO_TIMELINE,
     scales: [],
     ranges: { span: null, speed: null },
     showing: "first",
@@ -73,10 +74,13 @@ export function follows(source: Source & { kind: "files" }, { frames, shapes }: 
     ...drawn({ shapes, camera, options: {} }),
     focalFinding: store.state.focalFinding,
     running: false,
+    ...NO_TIMELINE,
     showing: "first",
     tool: "select",
   });
 }
+
+const NO_TIMELINE = { timeline: null, visit: null, working: null };
 
 /** What a pair brings with it, as if somebody had just drawn it. */
 function drawn({ shapes, camera, options }: Setup): Partial<State> {

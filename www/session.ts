@@ -1,5 +1,5 @@
 /**
- * What a person can ask for: open, run, pause, step, reset, cancel, look.
+ * What a person can ask for: open, run, pause, step, reset, cancel.
  *
  * Commands change the store and tell the worker. Whatever goes wrong ends as a sentence in the
  * message bar; frames and curves live in the store and survive a broken or stopped worker.
@@ -7,54 +7,30 @@
 
 import { during } from "./busy";
 import { announce } from "./dom";
+import { answer, forgetAsked, hold, look, lookThrough, show, viewer, want } from "./looking";
 import { presentFound } from "./memory/held";
 import type { Setting } from "./memory/setting";
 import { adopt, follows, sameFrames } from "./opened";
 import { paceOf } from "./pace";
+import { standingAt } from "./timeline/line";
 import { sceneOf } from "./scenes";
 import { store, type State } from "./store";
-import { Viewer } from "./viewer";
-import { wantedBy } from "./views";
-import { ending, sentence } from "./wording";
+import { sentence } from "./wording";
 import { Client, Ended, type Remote } from "./worker/client";
-import type {
-  Failure,
-  Found,
-  FrameFile,
-  MeshData,
-  Part,
-  Progress,
-  Setup,
-  Source,
-  Wanted,
-} from "./worker/protocol";
+import type { Failure, Found, FrameFile, Part, Setup, Source, Wanted } from "./worker/protocol";
 
 /** How long the worker may take to answer before cancelling ends it. */
 const PATIENCE_MS = 1500;
 
-let meshListener: (mesh: MeshData) => void = () => {};
-
-/** The relief view hears of new meshes here: they are too large to keep in the store. */
-export function onMesh(listener: (mesh: MeshData) => void): void {
-  meshListener = listener;
-}
-
 const client = new Client("solver", {
   progress: show,
   failure: (failure) => {
-    // That was the answer.
-    answered = asked;
+    answer();
     failed(failure, true);
   },
 });
 
-/** Draws while the solver is in a pass: it knows what the pass before came to. */
-const viewer = new Viewer((progress) => {
-  const { pictures, legends, view, mesh } = progress;
-  for (const old of store.state.pictures) old?.close();
-  store.update({ pictures, legends, pictured: view });
-  if (mesh) meshListener(mesh);
-});
+lookThrough((use) => attempt(null, () => client.call(use)));
 
 /** Loads the core; `memory/first.ts` says what is opened first. */
 export async function load(): Promise<boolean> {
@@ -153,16 +129,16 @@ const setupOf = (state: Readonly<State>): Setup => ({
 });
 
 /**
- * Sends the solver to work, and looks anew: what was computed before would tell of another state.
+ * Sends the solver to work, and looks anew at where it stands: what was computed before would tell of another state.
  * What is refused leaves everything as it was.
  */
-async function command(
+export async function command(
   patch: Partial<State>,
   use: (service: Remote, setup: Setup, wanted: Wanted) => Promise<void>,
 ): Promise<boolean> {
   const { running, started } = store.state;
   forgetAsked();
-  store.update(patch);
+  store.update({ ...patch, visit: null, working: null });
   const done = await attempt(null, () =>
     client.inTurn((service) => use(service, setupOf(store.state), want())),
   );
@@ -224,42 +200,13 @@ export async function cancel(): Promise<void> {
     );
   const late = new Promise<boolean>((resolve) => setTimeout(() => resolve(false), PATIENCE_MS));
   const answered = await Promise.race([polite, late]);
-  store.update({ running: false, started: false });
+  store.update({ running: false, started: false, visit: null, working: null });
   if (!answered) {
     await recover(true);
     // What hung may have been the core's own loading.
     if (!store.state.catalogues) void load();
   }
   announce("Cancelled; frames and curves are kept.");
-}
-
-/** Counts what was asked for, so that answers to earlier questions can be told. */
-let asked = 0;
-let answered = 0;
-let lookAgain = false;
-
-/** Tells the worker what the page is looking at: the latest only, once the last was answered. */
-export async function look(): Promise<void> {
-  if (!store.state.frames) return;
-  viewer.look(wantedBy(store.state));
-  if (asked !== answered) {
-    lookAgain = true;
-    return;
-  }
-  const sent = await attempt(null, () => client.call((service) => service.look(want())));
-  if (!sent) answered = asked;
-}
-
-/** Whatever is still on its way is no longer wanted. */
-function forgetAsked(): void {
-  asked += 1;
-  answered = asked;
-  lookAgain = false;
-}
-
-function want(): Wanted {
-  asked += 1;
-  return { id: asked, ...wantedBy(store.state) };
 }
 
 /** What has not been sent yet, and so will tell of later changes, too. */
@@ -295,6 +242,21 @@ export async function ask<T>(
   let answer: T | null = null;
   await attempt(phrase, async () => {
     answer = await client.call(use);
+  });
+  return answer;
+}
+
+/** The same of whoever shows what is looked at: of a pass left behind, that is the viewer. */
+export async function askShown<T>(
+  phrase: string | null,
+  use: Parameters<typeof client.call<T>>[0],
+): Promise<T | null> {
+  const { source, timeline, visit } = store.state;
+  const standing = timeline && visit && standingAt(timeline, visit);
+  if (!source || !standing) return ask(phrase, use);
+  let answer: T | null = null;
+  await attempt(phrase, async () => {
+    answer = await viewer.ask(source, standing, use);
   });
   return answer;
 }
@@ -348,9 +310,9 @@ async function recover(byHand = false): Promise<void> {
   recovering = reopened;
   // Commands that were under way end first, and say what they know of the run.
   await new Promise((next) => setTimeout(next));
-  // Nothing on its way is wanted any more, nor is anything to be asked for until frames are open again.
-  asked += 1;
-  store.update({ running: false, started: false, report: null, contours: [], scores: null });
+  hold();
+  const nothing = { started: false, report: null, contours: [], scores: null };
+  store.update({ running: false, ...nothing, visit: null, working: null });
   const open = await reopened;
   if (recovering !== reopened) return;
   recovering = null;
@@ -367,42 +329,4 @@ async function reopen(service: Remote, found: Found | null): Promise<void> {
     // Frames are there for whoever mends the setting; what is wrong with it is said when it is used.
     await service.open(source, {}, null);
   }
-}
-
-/** Takes one progress in and resolves once it is drawn, which lets the worker send the next. */
-async function show(progress: Progress): Promise<void> {
-  const { state } = store;
-  if (progress.id !== asked) {
-    progress.pictures.forEach((picture) => picture?.close());
-    return;
-  }
-  answered = asked;
-  const pictures = progress.pictures.map((picture, i) => picture ?? state.pictures[i] ?? null);
-  for (const [i, old] of state.pictures.entries()) if (old && pictures[i] !== old) old.close();
-  const finished = state.running && !progress.running && progress.started;
-  store.update({
-    running: progress.running,
-    started: progress.started,
-    revision: progress.revision,
-    report: progress.report,
-    contours: progress.contours,
-    pictures,
-    pictured: progress.view,
-    legends: progress.legends.map((legend, i) =>
-      progress.pictures[i] ? legend : (state.legends[i] ?? null),
-    ),
-    scores: progress.scores,
-  });
-  if (progress.mesh) meshListener(progress.mesh);
-  if (!progress.running) viewer.end();
-  else if (progress.found && state.source) {
-    const { found: bytes, report, contours } = progress;
-    viewer.follow(state.source, setupOf(state), { bytes, report, contours });
-  }
-  if (finished) announce(ending(progress.report));
-  if (lookAgain) {
-    lookAgain = false;
-    void look();
-  }
-  if (!document.hidden) await new Promise((drawn) => requestAnimationFrame(drawn));
 }

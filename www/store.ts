@@ -6,6 +6,7 @@
 
 import type { Film } from "./intake/film";
 import type { Session } from "./memory/database";
+import type { Timeline, Visit } from "./timeline/line";
 import type {
   Camera,
   Catalogues,
@@ -57,6 +58,7 @@ export interface Moment {
   options: OptionValues;
   scales: number[];
   held: Held | null;
+  timeline: Timeline | null;
 }
 
 export interface ViewParams {
@@ -150,6 +152,11 @@ export interface State {
   /** What the colours of the pictures stand for; `null` where they are no measure. */
   legends: (Legend | null)[];
   scores: ScoreTable | null;
+  /** The passes of the solve, as they are kept, and which is shown where it is not the solver's last (`looking.ts`). */
+  timeline: Timeline | null;
+  visit: Visit | null;
+  /** The solver's own report, while `report` is that of a pass it has left behind. */
+  working: Report | null;
   /** The result as it was last put away, and what that came to. */
   held: Held | null;
   heldFound: Found | null;
@@ -237,6 +244,9 @@ export const store = new Store({
   pictured: "",
   legends: [],
   scores: null,
+  timeline: null,
+  visit: null,
+  working: null,
   held: null,
   heldFound: null,
   scales: [],

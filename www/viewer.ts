@@ -1,62 +1,128 @@
 /**
- * A second worker that draws what the first has found so far, while that is in a long pass and hears nothing.
+ * A second worker that draws passes which are not where the solver stands, or which that cannot draw because it is in a
+ * long pass and hears nothing.
  *
- * It is there only where passes are long, opens the same frames, and is ended with the run.
+ * It is there only where one is asked for, opens the same frames, and is ended when it has had nothing to do for a while.
+ * However many passes are asked for, one is drawn at a time, and next the one that was asked for last.
  */
 
 import { Client } from "./worker/client";
-import type { Found, Progress, Setup, Source, Wanted } from "./worker/protocol";
+import type { Progress, Source, Standing, Wanted } from "./worker/protocol";
+
+/** After so long without work it is ended: frames take memory. */
+const IDLE_MS = 30_000;
+
+const NOTHING: Wanted = { id: -1, view: "", pictures: [], longest: 1, mesh: null };
+
+interface Sight {
+  source: Source;
+  standing: Standing;
+  wanted: Omit<Wanted, "id">;
+  done: (progress: Progress | null) => void;
+}
 
 export class Viewer {
   private readonly client: Client;
   private source: Source | null = null;
-  private latest: { setup: Setup; found: Found } | null = null;
-  /** What it shows at present. */
-  private shown: Found | null = null;
+  private standing: Standing | null = null;
+  private next: Sight | null = null;
+  private working = false;
   private asked = 0;
+  private answer: (progress: Progress | null) => void = () => {};
+  private idle: ReturnType<typeof setTimeout> | undefined;
 
-  /** `show` gets pictures and mesh; the rest of a progress is the solver's to tell. */
-  constructor(show: (progress: Progress) => void) {
+  /** `failed` hears why something could not be drawn. */
+  constructor(private readonly failed: (message: string) => void) {
     this.client = new Client("viewer", {
       progress: async (progress) => {
-        if (progress.id === this.asked && this.latest) show(progress);
+        if (progress.id === this.asked) this.answer(progress);
         else progress.pictures.forEach((picture) => picture?.close());
       },
-      // The solver draws it all the same, only later.
       failure: () => this.end(),
     });
   }
 
-  /** Takes what was found up to now. */
-  follow(source: Source, setup: Setup, found: Found): void {
-    this.latest = { setup, found };
-    if (this.source === source) return;
-    this.source = source;
-    void this.client.inTurn((service) => service.open(source, setup, null)).catch(() => this.end());
+  /** What is looked at of a pass; `null` when another was asked for meanwhile, or it cannot be drawn. */
+  show(source: Source, standing: Standing, wanted: Omit<Wanted, "id">): Promise<Progress | null> {
+    this.next?.done(null);
+    return new Promise((done) => {
+      this.next = { source, standing, wanted, done };
+      if (!this.working) void this.work();
+    });
   }
 
-  /** Draws what is looked at, if there is something to draw. */
-  look(wanted: Omit<Wanted, "id">): void {
-    if (!this.latest) return;
-    this.asked += 1;
-    const id = this.asked;
-    void this.client
-      .inTurn(async (service) => {
-        // Only the last is wanted.
-        if (id !== this.asked || !this.latest) return;
-        const { setup, found } = this.latest;
-        if (found === this.shown) await service.look({ ...wanted, id });
-        else await service.restore(setup, found, { ...wanted, id });
-        this.shown = found;
-      })
-      .catch(() => {});
+  /** Any other question about a pass; one that `moves` leaves it standing elsewhere. */
+  async ask<T>(
+    source: Source,
+    standing: Standing,
+    use: Parameters<typeof this.client.call<T>>[0],
+    moves = false,
+  ): Promise<T> {
+    return this.alone(async () => {
+      await this.open(source, standing);
+      if (!moves && standing !== this.standing) {
+        await this.client.call((service) => service.visit(standing, NOTHING));
+      }
+      this.standing = moves ? null : standing;
+      return this.client.call(use);
+    });
   }
 
   end(): void {
-    if (!this.latest) return;
+    clearTimeout(this.idle);
     this.client.end();
     this.source = null;
-    this.latest = null;
-    this.shown = null;
+    this.standing = null;
+    this.answer(null);
+  }
+
+  private async work(): Promise<void> {
+    clearTimeout(this.idle);
+    this.working = true;
+    while (this.next) {
+      const sight = this.next;
+      this.next = null;
+      sight.done(await this.draw(sight).catch((error: Error) => this.refused(error)));
+    }
+    this.working = false;
+    this.idle = setTimeout(() => this.end(), IDLE_MS);
+  }
+
+  private async draw({ source, standing, wanted }: Sight): Promise<Progress | null> {
+    this.asked += 1;
+    const id = this.asked;
+    return this.alone(async () => {
+      await this.open(source, standing);
+      const drawn = new Promise<Progress | null>((answer) => (this.answer = answer));
+      await this.client.call((service) =>
+        standing === this.standing
+          ? service.look({ ...wanted, id })
+          : service.visit(standing, { ...wanted, id }),
+      );
+      this.standing = standing;
+      return drawn;
+    });
+  }
+
+  private turn: Promise<unknown> = Promise.resolve();
+
+  /** One thing at a time: what is drawn must not move meanwhile. */
+  private alone<T>(use: () => Promise<T>): Promise<T> {
+    const mine = this.turn.then(use);
+    this.turn = mine.catch(() => {});
+    return mine;
+  }
+
+  private async open(source: Source, { setup }: Standing): Promise<void> {
+    if (this.source === source) return;
+    await this.client.call((service) => service.open(source, setup, null));
+    this.source = source;
+    this.standing = null;
+  }
+
+  private refused({ name, message }: Error): null {
+    if (name !== "Ended") this.failed(message);
+    this.end();
+    return null;
   }
 }

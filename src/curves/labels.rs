@@ -18,3 +18,8 @@ pub fn labels(phi: &[Grid<f32>], width: usize, height: usize) -> Grid<u8> {
     }
     labels
 }
+
+/// Pixels of which one labelling says something else than another of the same size.
+pub(crate) fn differing(one: &[u8], other: &[u8]) -> usize {
+    one.iter().zip(other).filter(|(a, b)| a != b).count()
+}

@@ -7,6 +7,7 @@ mod polygon;
 mod shape;
 
 pub use contour::{Contour, contours};
+pub(crate) use labels::differing;
 pub use labels::labels;
 pub use length::length;
 pub use shape::Shape;

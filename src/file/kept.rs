@@ -8,6 +8,7 @@
 
 use glam::DVec3;
 
+use super::packed::{from_planes, planes};
 use super::{bounded, unreadable};
 use crate::camera::{Camera, RigidMotion};
 use crate::error::Error;
@@ -99,18 +100,8 @@ pub fn write(found: &Interpretation, precision: Precision) -> Vec<u8> {
         (Quantity::Flow, &found.flow.u),
         (Quantity::Flow, &found.flow.v),
     ] {
-        let mut last = 0;
-        let differences: Vec<[u8; 4]> = (grid.data().iter())
-            .map(|&value| {
-                let whole = precision.whole(of, value);
-                let difference = whole.wrapping_sub(last);
-                last = whole;
-                zigzag(difference).to_le_bytes()
-            })
-            .collect();
-        for byte in 0..4 {
-            bytes.extend(differences.iter().map(|difference| difference[byte]));
-        }
+        let wholes = grid.data().iter().map(|&value| precision.whole(of, value));
+        planes(wholes, &mut bytes);
     }
     bytes
 }
@@ -154,12 +145,7 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Interpretation, Error> {
     let occluded = rest.take(pixels).ok_or_else(short)?.to_vec();
     let mut grid = |of: Quantity| {
         let planes = rest.take(4 * pixels).ok_or_else(short)?;
-        let mut last = 0i32;
-        let values = (0..pixels).map(|i| {
-            let four = [0, 1, 2, 3].map(|byte| planes[byte * pixels + i]);
-            last = last.wrapping_add(unzigzag(u32::from_le_bytes(four)));
-            precision.float(of, last)
-        });
+        let values = from_planes(planes).map(|whole| precision.float(of, whole));
         Grid::from_vec(width, height, values.collect())
     };
     let confidence = grid(Quantity::Confidence)?;
@@ -203,15 +189,6 @@ impl<'a> Rest<'a> {
                 .collect(),
         )
     }
-}
-
-/// Small numbers of either sign as small numbers: 0, −1, 1, −2, … as 0, 1, 2, 3, …
-fn zigzag(n: i32) -> u32 {
-    ((n << 1) ^ (n >> 31)).cast_unsigned()
-}
-
-fn unzigzag(n: u32) -> i32 {
-    (n >> 1).cast_signed() ^ -((n & 1).cast_signed())
 }
 
 #[cfg(test)]

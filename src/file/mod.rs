@@ -4,6 +4,7 @@ pub mod flo;
 pub mod kept;
 pub mod kitti;
 pub mod motion;
+pub(crate) mod packed;
 pub mod parts;
 pub mod pfm;
 pub mod png;

@@ -7,11 +7,23 @@ use super::scale::pyramid;
 use super::solver::{Layered, PLANAR_ROUNDS, Phase};
 use crate::energy::Energy;
 use crate::error::Error;
+use crate::file::packed::{Packer, Unpacker};
 use crate::frames::FramePair;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 use crate::options::Options;
-use crate::solver::{Approach, Expected, Next, RegionState, Weights};
+use crate::solver::{Approach, Expected, Next, RegionState, Stage, Weights};
+
+impl Layered {
+    /// The scale on which motion models are compared once more.
+    fn selects(&self) -> usize {
+        if self.warm {
+            self.first
+        } else {
+            self.first.saturating_sub(1)
+        }
+    }
+}
 
 impl Approach for Layered {
     fn find_motions(&mut self, options: &Options) {
@@ -23,12 +35,7 @@ impl Approach for Layered {
                     self.measure_sigma(options);
                 }
                 self.estimate(options);
-                let selects = if self.warm {
-                    self.first
-                } else {
-                    self.first.saturating_sub(1)
-                };
-                if done == 0 && self.level == selects {
+                if done == 0 && self.level == self.selects() {
                     self.select_models(options);
                 }
             }
@@ -58,7 +65,10 @@ impl Approach for Layered {
         match self.phase {
             Phase::Planar(done) => self.label_planes(done, options),
             Phase::Search | Phase::Rigid(_) => self.label(options),
-            Phase::Refine | Phase::Done => return,
+            Phase::Refine | Phase::Done => {
+                self.rejected = false;
+                return;
+            }
         }
         self.accept_or_reject();
     }
@@ -131,6 +141,28 @@ impl Approach for Layered {
 
     fn expected(&self) -> Option<Expected> {
         self.expected_now()
+    }
+
+    fn stage(&self) -> Stage {
+        match self.phase {
+            Phase::Planar(_) => Stage::Planes,
+            Phase::Search => Stage::Search,
+            Phase::Rigid(0) if self.level == self.selects() => Stage::Selection,
+            Phase::Rigid(_) => Stage::Surfaces,
+            Phase::Refine | Phase::Done => Stage::Steps,
+        }
+    }
+
+    fn taken_back(&self) -> bool {
+        self.rejected
+    }
+
+    fn pack(&self, to: &mut Packer) {
+        self.write(to);
+    }
+
+    fn unpack(&mut self, from: &mut Unpacker) -> Result<(), Error> {
+        self.read(from)
     }
 
     fn interpretation(&self, options: &Options) -> Interpretation {

@@ -40,12 +40,15 @@ const STEPPED: f64 = 0.02;
 const STEPS: usize = 4;
 
 impl Layered {
-    /// Whether some region wants depth pixel by pixel.
-    pub(super) fn has_discontinuities(&mut self) -> bool {
+    /// Looks for regions that want depth pixel by pixel; whether there are any.
+    pub(super) fn find_unexplained(&mut self) -> bool {
         if self.regions.len() == 1 {
             self.find_costs();
         }
-        (0..self.regions.len()).any(|k| self.is_unexplained(k))
+        self.unexplained = (0..self.regions.len())
+            .filter(|&k| self.is_unexplained(k))
+            .collect();
+        !self.unexplained.is_empty()
     }
 
     fn is_unexplained(&self, k: usize) -> bool {
@@ -63,9 +66,6 @@ impl Layered {
 
     /// Looks for depth anew where it is wanted.
     pub(super) fn refine_discontinuities(&mut self, options: &Options) {
-        let wanted: Vec<usize> = (0..self.regions.len())
-            .filter(|&k| self.is_unexplained(k))
-            .collect();
         // Not in each other's light: what one frame alone shows is taken for a change of light, which turns depth.
         let pair = self.pair.clone();
         let frames = [pair.first(), pair.second()].map(|frame| &*frame.grey);
@@ -73,7 +73,7 @@ impl Layered {
         let camera = self.scales[0].camera;
         let smooth = frames.map(|frame| blur(frame, self.smoothing));
         let scale = Scale::new(smooth, frames.map(Grid::clone), camera);
-        for k in wanted {
+        for k in self.unexplained.clone() {
             let support = self.labels.map(|l| usize::from(l) == k);
             let own: Vec<_> = (all.iter().copied())
                 .filter(|m| support[(m.at[0] as usize, m.at[1] as usize)])

@@ -23,6 +23,7 @@ pub(crate) mod kernels;
 mod label;
 mod merge;
 mod models;
+mod packed;
 mod refine;
 mod region;
 mod scale;

@@ -29,7 +29,7 @@ use crate::window::Window;
 /// Planar rounds at most.
 pub(super) const PLANAR_ROUNDS: usize = 6;
 /// Rigid passes of a scale at least and at most.
-const PASSES: [usize; 2] = [2, 4];
+pub(super) const PASSES: [usize; 2] = [2, 4];
 /// The first scale is the finest whose shorter side has no more pixels than this.
 const FIRST_SIDE: usize = 150;
 /// Pixels between control points on the scale after the first.
@@ -83,7 +83,9 @@ pub(crate) struct Layered {
     pub(super) weights: Weights,
     pub(super) before: Option<Before>,
     /// Whether the last pass was taken back.
-    rejected: bool,
+    pub(super) rejected: bool,
+    /// Regions that want depth pixel by pixel, when that is due.
+    pub(super) unexplained: Vec<usize>,
 }
 
 impl Layered {
@@ -121,6 +123,7 @@ impl Layered {
             weights: Weights::default(),
             before: None,
             rejected: false,
+            unexplained: Vec::new(),
             scales,
         };
         layered.place(&level_sets);
@@ -235,12 +238,17 @@ impl Layered {
             self.energy = before.energy;
             self.find_windows();
         } else {
-            let known = self.regions.iter().map(|r| (r.state.clone(), r.flow));
-            self.before = Some(Before {
-                energy: self.energy,
-                labels: self.labels.clone(),
-                states: known.collect(),
-            });
+            self.before = Some(self.now());
+        }
+    }
+
+    /// What is to be gone back to when the next pass is worse.
+    pub(super) fn now(&self) -> Before {
+        let known = self.regions.iter().map(|r| (r.state.clone(), r.flow));
+        Before {
+            energy: self.energy,
+            labels: self.labels.clone(),
+            states: known.collect(),
         }
     }
 
@@ -269,7 +277,7 @@ impl Layered {
                 } else if self.level > 0 {
                     self.refine_scale();
                     (Phase::Rigid(0), Next::Another)
-                } else if options.discontinuities && self.has_discontinuities() {
+                } else if options.discontinuities && self.find_unexplained() {
                     (Phase::Refine, Next::Another)
                 } else {
                     (Phase::Done, Next::Done)

@@ -23,6 +23,7 @@ mod curves;
 mod depth;
 mod energy;
 mod motion;
+mod packed;
 mod psi;
 mod redistance;
 mod rows;

@@ -17,12 +17,14 @@ use crate::camera::{Camera, RigidMotion};
 use crate::confidence::confidence;
 use crate::curves;
 use crate::energy::Energy;
+use crate::error::Error;
+use crate::file::packed::{Packer, Unpacker};
 use crate::frames::{Derivatives, FramePair, blur};
 use crate::grid::Grid;
 use crate::interpretation::{Flow, Interpretation, NEAREST_FARTHEST};
 use crate::motion_model::MotionModel;
 use crate::options::Options;
-use crate::solver::{Approach, Next, RegionState, Weights};
+use crate::solver::{Approach, Next, RegionState, Stage, Weights};
 use crate::spread::spread;
 
 /// Curves, motions and depth, and what they are judged by.
@@ -32,12 +34,12 @@ pub(crate) struct Paper {
     smoothing: f64,
     derivatives: Derivatives,
     /// `None` before the first motion step.
-    noise: Option<Noise>,
-    weights: Weights,
-    phi: Vec<Grid<f32>>,
-    labels: Grid<u8>,
-    motions: Vec<RigidMotion>,
-    z: Grid<f32>,
+    pub(super) noise: Option<Noise>,
+    pub(super) weights: Weights,
+    pub(super) phi: Vec<Grid<f32>>,
+    pub(super) labels: Grid<u8>,
+    pub(super) motions: Vec<RigidMotion>,
+    pub(super) z: Grid<f32>,
     descent: DepthDescent,
     evolution: CurveEvolution,
 }
@@ -272,6 +274,18 @@ impl Approach for Paper {
 
     fn weights(&self) -> Weights {
         self.weights
+    }
+
+    fn stage(&self) -> Stage {
+        Stage::Descent
+    }
+
+    fn pack(&self, to: &mut Packer) {
+        self.write(to);
+    }
+
+    fn unpack(&mut self, from: &mut Unpacker) -> Result<(), Error> {
+        self.read(from)
     }
 
     fn interpretation(&self, _options: &Options) -> Interpretation {

@@ -21,7 +21,7 @@ const TIGHTER: f64 = 0.8;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Noise {
     /// After the first motion step.
-    first: f64,
+    pub first: f64,
     /// When all stood still last.
     pub now: f64,
 }

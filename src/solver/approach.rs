@@ -4,11 +4,12 @@
 
 use std::rc::Rc;
 
-use super::report::Expected;
+use super::report::{Expected, Stage};
 use super::weights::Weights;
 use crate::camera::RigidMotion;
 use crate::energy::Energy;
 use crate::error::Error;
+use crate::file::packed::{Packer, Unpacker};
 use crate::frames::FramePair;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
@@ -95,6 +96,23 @@ pub(crate) trait Approach {
     fn expected(&self) -> Option<Expected> {
         None
     }
+
+    /// What the pass under way does.
+    fn stage(&self) -> Stage;
+
+    /// Whether the last pass raised the energy, and was taken back.
+    fn taken_back(&self) -> bool {
+        false
+    }
+
+    /// Writes what is kept between passes.
+    fn pack(&self, to: &mut Packer);
+
+    /// Takes it over again.
+    ///
+    /// # Errors
+    /// [`Error::File`] for what was not written so; then nothing is changed.
+    fn unpack(&mut self, from: &mut Unpacker) -> Result<(), Error>;
 
     /// What the frames are taken for, at the frame's size.
     fn interpretation(&self, options: &Options) -> Interpretation;

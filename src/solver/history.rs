@@ -7,6 +7,7 @@
 use serde::Serialize;
 
 use super::approach::Next;
+use super::report::LastPass;
 use crate::options::Options;
 
 /// Where the solver stands.
@@ -52,9 +53,11 @@ pub(super) struct History {
     /// When something began under which energies do not compare with those before: a finer scale, other weights.
     pub breaks: Vec<usize>,
     /// When the curves were drawn last.
-    drawn: usize,
+    pub(super) drawn: usize,
     /// Passes for which all has stood still.
-    still: usize,
+    pub(super) still: usize,
+    /// What the last pass did.
+    pub last: Option<LastPass>,
 }
 
 impl History {

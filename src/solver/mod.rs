@@ -7,12 +7,13 @@ mod approach;
 mod find;
 mod history;
 mod report;
+mod state;
 mod weights;
 
 pub(crate) use approach::{Approach, Next, RegionState};
 pub use find::find_curves;
 pub use history::Status;
-pub use report::{Expected, RegionReport, Report, Seconds};
+pub use report::{Expected, LastPass, RegionReport, Report, Seconds, Stage};
 pub use weights::Weights;
 
 use std::cell::RefCell;
@@ -21,7 +22,7 @@ use std::rc::Rc;
 use history::History;
 
 use crate::camera::Camera;
-use crate::curves::{Contour, Shape, contours};
+use crate::curves::{Contour, Shape, contours, differing};
 use crate::energy::Energy;
 use crate::error::Error;
 use crate::frames::{Frame, FramePair, blur, shrunk_camera};
@@ -133,12 +134,23 @@ impl Solver {
     /// Counts a pass whose steps have been taken; `before` is who owned which pixel.
     fn end_pass(&mut self, before: &Grid<u8>) {
         let energy = self.energy().total();
-        let after = self.approach.labels();
-        let changed = before.data().iter().zip(after.data());
-        let changed = changed.filter(|(a, b)| a != b).count() as f64 / before.len() as f64;
+        let changed = differing(before.data(), self.approach.labels().data());
+        let (level, _) = self.approach.scale();
+        self.history.last = Some(LastPass {
+            stage: self.approach.stage(),
+            level,
+            changed: self.in_frame(changed, level),
+            taken_back: self.approach.taken_back(),
+        });
+        let changed = changed as f64 / before.len() as f64;
         let still = self.history.enter(energy, changed, self.options.tolerance);
         let next = self.approach.end_pass(changed, still, &self.options);
         self.status = self.history.leave(next, &self.options);
+    }
+
+    /// How many pixels of the frames so many of a scale stand for.
+    fn in_frame(&self, pixels: usize, level: usize) -> usize {
+        (pixels << (2 * level)) * self.working.factor.pow(2)
     }
 
     /// Takes the following frame of the film: the second frame becomes the first. Curves, motions and depth as they are

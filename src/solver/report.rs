@@ -77,6 +77,8 @@ pub struct Report {
     /// Passes that had been made when energies became incomparable with those before: a finer scale began, weights
     /// were chosen anew, curves were drawn or the next frame was taken.
     pub breaks: Vec<usize>,
+    /// What the last pass did; null before the first.
+    pub last: Option<LastPass>,
     /// How good labels and flow are expected to be; null where that is not known.
     pub expected: Option<Expected>,
     /// Every region, the background first.
@@ -89,6 +91,45 @@ pub struct Report {
     pub warnings: Vec<String>,
     /// Time spent.
     pub seconds: Times,
+}
+
+/// What a pass is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Stage {
+    /// Under `best`, first: image motion of a plane for every region, and labels by it.
+    Planes,
+    /// Then: candidate motions, the best of which is taken, with a surface.
+    Search,
+    /// Motion and surface improved, motion models compared once more, labels.
+    Selection,
+    /// Motion and surface improved, labels.
+    Surfaces,
+    /// Depth pixel by pixel where it has steps.
+    Steps,
+    /// Under `paper`: least squares, descent on depth, evolution of curves.
+    Descent,
+}
+
+/// What a pass did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(
+    all(target_arch = "wasm32", feature = "javascript"),
+    derive(tsify::Tsify)
+)]
+pub struct LastPass {
+    /// What it was about.
+    pub stage: Stage,
+    /// The scale that it was made at, 0 the finest.
+    pub level: usize,
+    /// Pixels of the frame that changed region.
+    pub changed: usize,
+    /// Whether it raised the energy, and labels, motions and surfaces were put back.
+    pub taken_back: bool,
 }
 
 /// How good a result is expected to be, as the scale at work allows.
@@ -143,8 +184,7 @@ impl Report {
             .enumerate()
             .map(|(label, (state, pixels))| RegionReport {
                 label,
-                // A pixel of the scale at work stands for several of the frame's.
-                pixels: (pixels << (2 * level)) * factor * factor,
+                pixels: solver.in_frame(pixels, level),
                 share: pixels as f64 / labels.len() as f64,
                 translation: state.motion.translation.to_array(),
                 rotation: state.motion.rotation.to_array(),
@@ -168,6 +208,7 @@ impl Report {
             history: solver.history.energies.clone(),
             breaks: solver.history.breaks.clone(),
             factor,
+            last: solver.history.last,
             expected: solver.approach.expected().map(|e| Expected {
                 flow: e.flow * factor as f64,
                 ..e

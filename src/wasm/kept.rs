@@ -7,7 +7,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use super::files::listed;
 use super::solver::{PICTURES, score_table};
 use super::{Frame, Json, Mesh, Picture, Scene, Solver, Word, draw, write};
-use crate::curves::Contour;
+use crate::curves::{Contour, differing};
 use crate::error::Error;
 use crate::file::kept::{self, Precision};
 use crate::file::motion::{MotionFile, RegionMotion, Seconds};
@@ -53,6 +53,34 @@ impl Solver {
             Precision::Exact
         };
         Uint8Array::from(kept::write(self.found(), precision).as_slice())
+    }
+
+    /// Where it stands, as bytes for `setState`: a few kilobytes under `best`. Meant for the end of a pass.
+    pub fn state(&self) -> Uint8Array {
+        Uint8Array::from(self.solver().state().as_slice())
+    }
+
+    /// Goes to where a solver of the same frames, camera, preset, detail and number of curves stood; on an error nothing is
+    /// changed. With `setOptions` it goes on from there under others.
+    #[wasm_bindgen(js_name = setState)]
+    pub fn set_state(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        self.change().set_state(bytes)
+    }
+
+    /// The share of pixels, 0–1, that have another label than in `labels`, which a solver of the same frames gave.
+    #[wasm_bindgen(js_name = labelsApart)]
+    pub fn labels_apart(&self, labels: &[u8]) -> Result<f64, Error> {
+        let own = &self.found().labels;
+        if labels.len() != own.len() {
+            return Err(Error::Length {
+                what: "labels",
+                width: own.width(),
+                height: own.height(),
+                expected: own.len(),
+                found: labels.len(),
+            });
+        }
+        Ok(differing(own.data(), labels) as f64 / own.len() as f64)
     }
 }
 

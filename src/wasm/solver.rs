@@ -390,7 +390,11 @@ impl Solver {
         }
     }
 
-    fn change(&mut self) -> &mut crate::Solver {
+    pub(super) fn solver(&self) -> &crate::Solver {
+        &self.solver
+    }
+
+    pub(super) fn change(&mut self) -> &mut crate::Solver {
         self.found.take();
         self.shrunk.take();
         &mut self.solver

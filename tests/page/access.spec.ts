@@ -3,7 +3,18 @@
 import AxeBuilder from "@axe-core/playwright";
 import type { Page } from "@playwright/test";
 
-import { chooseView, expect, open, read, runPasses, test, inResult, inSettings } from "./helpers";
+import {
+  chooseView,
+  expect,
+  inOpen,
+  inResult,
+  inSettings,
+  open,
+  openTab,
+  read,
+  runPasses,
+  test,
+} from "./helpers";
 
 async function faults(page: Page): Promise<string[]> {
   const { violations } = await new AxeBuilder({ page }).analyze();
@@ -28,6 +39,27 @@ for (const colorScheme of ["light", "dark"] as const) {
         expect(await faults(page), view).toEqual([]);
       }
     });
+
+    for (const width of [1280, 390]) {
+      test(`axe finds nothing serious in any panel, ${width} pixels wide`, async ({ page }) => {
+        await page.setViewportSize({ width, height: 820 });
+        await open(page);
+        await runPasses(page, 2);
+        for (const tab of ["Result", "Settings", "Learn"] as const) {
+          await openTab(page, tab);
+          expect(await faults(page), tab).toEqual([]);
+        }
+        await page.keyboard.press("Escape");
+        await chooseView(page, "Depth");
+        await page.getByRole("button", { name: "Two views" }).click();
+        await page.locator("#overlay").focus();
+        await page.keyboard.press("ArrowUp");
+        await expect(page.locator("#readout")).toContainText("confidence");
+        expect(await faults(page), "two views and the readout").toEqual([]);
+        await inOpen(page);
+        expect(await faults(page), "Open").toEqual([]);
+      });
+    }
 
     test("axe finds nothing serious beside an error", async ({ opened: page }) => {
       await (await inSettings(page)).getByLabel("Focal length f, px").fill("0");
@@ -201,4 +233,5 @@ test("in forced colours what is chosen looks different from what is not", async 
     true,
   );
   expect(await differ(".region.selected", ".region:not(.selected)")).toBe(true);
+  expect(await differ("[role=tab][aria-selected=true]", "[aria-selected=false]")).toBe(true);
 });

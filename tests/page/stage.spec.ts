@@ -117,9 +117,19 @@ test("every map has a legend with its unit", async ({ opened: page }) => {
   await expect(legend).toBeEmpty();
   await chooseView(page, "Depth");
   await expect(legend).toContainText("× mean");
-  const marks = (await legend.locator("li").allTextContents()).map(Number);
+  const told = async () => (await legend.locator("li").allTextContents()).map(Number);
+  const marks = await told();
   expect(marks).toHaveLength(5);
   expect(marks).toEqual(marks.toSorted((a, b) => b - a));
+  // Held, the range stays whatever becomes of the depth.
+  const hold = page.getByRole("button", { name: "Hold the range" });
+  await hold.click();
+  const before = await look(page);
+  await page.locator("#scale-0").fill("1");
+  await expect.poll(async () => (await look(page)).print).not.toBe(before.print);
+  expect(await told()).toEqual(marks);
+  await hold.click();
+  await expect.poll(told).not.toEqual(marks);
   await chooseView(page, "Motion");
   await expect(legend).toContainText(/px\/frame.*\d/);
   await chooseView(page, "Confidence");

@@ -9,4 +9,5 @@ mod extremes;
 mod films;
 mod passes;
 mod refused;
+mod states;
 mod steps;

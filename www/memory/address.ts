@@ -139,7 +139,8 @@ async function exactly({ name, view, setting }: Target): Promise<boolean> {
       found,
     };
     const { shapes, camera, options, scales } = before;
-    store.update({ past: [{ shapes, camera, options, scales, held }], future: [] });
+    const timeline = kept.timeline;
+    store.update({ past: [{ shapes, camera, options, scales, held, timeline }], future: [] });
   }
   return done;
 }

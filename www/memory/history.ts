@@ -8,17 +8,18 @@
 import { announce } from "../dom";
 import { cancel, configure, reset, restore } from "../session";
 import { store, type State } from "../store";
+import { sizeOf, type Timeline } from "../timeline/line";
 import type { Held, Moment } from "../store";
 
 /** Moments that can be gone back to. */
 const MOST_MOMENTS = 200;
-/** Compressed results among them, bytes: of the oldest only the settings stay. */
+/** Compressed results and timelines among them, bytes: of the oldest only the settings stay. */
 const MOST_BYTES = 64 << 20;
 
 /** What undo brings back: everything that a solver is made from, and what it came to. */
 export function present(): Moment {
-  const { shapes, camera, options, scales, held } = store.state;
-  return { shapes, camera, options, scales, held };
+  const { shapes, camera, options, scales, held, timeline } = store.state;
+  return { shapes, camera, options, scales, held, timeline };
 }
 
 /** What is to be undone from here on; `before` is where it leads to. */
@@ -82,7 +83,7 @@ async function go(moment: Moment, history: Pick<State, "past" | "future">): Prom
   steps += 1;
   const mine = steps;
   const { selected, source, running } = store.state;
-  const { shapes, camera, options, scales, held } = moment;
+  const { shapes, camera, options, scales, held, timeline } = moment;
   store.update({
     ...history,
     shapes,
@@ -99,6 +100,7 @@ async function go(moment: Moment, history: Pick<State, "past" | "future">): Prom
   const found = held && (await held.ready);
   // Another step, or another pair, is what is wanted by now.
   if (mine !== steps || store.state.source !== source) return;
+  store.update({ timeline });
   if (found) await restore(found);
   else if (store.state.started) await reset();
   else await configure();
@@ -107,15 +109,15 @@ async function go(moment: Moment, history: Pick<State, "past" | "future">): Prom
 /** The same moments, with results only in the latest that are not too many bytes. */
 function bounded(moments: Moment[]): Moment[] {
   let left = MOST_BYTES;
-  const counted = new Set<Held>();
+  const counted = new Set<Held | Timeline>();
   return moments
     .toReversed()
     .map((moment) => {
-      const { held } = moment;
-      if (!held) return moment;
-      if (!counted.has(held)) left -= held.found?.bytes.length ?? 0;
-      counted.add(held);
-      return left < 0 ? { ...moment, held: null } : moment;
+      const { held, timeline } = moment;
+      if (held && !counted.has(held)) left -= held.found?.bytes.length ?? 0;
+      if (timeline && !counted.has(timeline)) left -= sizeOf(timeline);
+      for (const one of [held, timeline]) if (one) counted.add(one);
+      return left < 0 ? { ...moment, held: null, timeline: null } : moment;
     })
     .reverse();
 }

@@ -25,8 +25,8 @@ export function mountKept(): void {
       const size = memory.reduce((sum, session) => sum + sizeOf(session), 0) / 2 ** 20;
       byId("kept").textContent =
         memory.length === 0
-          ? `Nothing is kept. Frames, curves, settings and results will be, on this device only, up to ${most}\u00a0MB.`
-          : `Kept on this device, and nowhere else: ${pairs} with curves, settings and results, ${size.toFixed(1)} of at most ${most}\u00a0MB.`;
+          ? `Nothing is kept. Frames, curves, settings, passes and results will be, on this device only, up to ${most}\u00a0MB.`
+          : `Kept on this device, and nowhere else: ${pairs} with curves, settings, passes and results, ${size.toFixed(1)} of at most ${most}\u00a0MB.`;
     },
   );
 }

@@ -8,6 +8,7 @@ import { make } from "../dom";
 import { open } from "../session";
 import { store, type Slot, type State } from "../store";
 import type { Found, Source } from "../worker/protocol";
+import { sizeOf as bytesOf, type Timeline } from "../timeline/line";
 import { forgetAll, keep, recall, sessions, type Session } from "./database";
 import { presentFound, settingsOf } from "./held";
 import { nameOf } from "./names";
@@ -18,13 +19,16 @@ const THUMBNAIL = 160;
 
 let timer: ReturnType<typeof setTimeout> | undefined;
 /** What is written already. */
-let written: { source: Source; found: Found | null } | null = null;
+let written: { source: Source; found: Found | null; timeline: Timeline | null } | null = null;
 /** Writes one after another. */
 let writing: Promise<void> = Promise.resolve();
 
 export function mountRemember(): void {
   store.watch(
-    (state) => [state.source, state.frames, state.heldFound, ...Object.values(settingOf(state))],
+    (state) => [
+      ...[state.source, state.frames, state.heldFound, state.running || state.timeline],
+      ...Object.values(settingOf(state)),
+    ],
     () => {
       clearTimeout(timer);
       timer = setTimeout(flush, PAUSE_MS);
@@ -54,6 +58,8 @@ async function writeNow(state: Readonly<State>): Promise<void> {
   const before = fresh ? null : written;
   const id = await nameOf(source);
   const found = started ? presentFound(state) : null;
+  // While it runs it changes with every pass.
+  const timeline = state.running ? (before?.timeline ?? null) : state.timeline;
   const own = source.kind === "files" ? source : null;
   const session: Session = {
     id,
@@ -61,12 +67,17 @@ async function writeNow(state: Readonly<State>): Promise<void> {
     used: Date.now(),
     frameBytes: own ? own.first.bytes.length + own.second.bytes.length : 0,
     resultBytes: found?.bytes.length ?? 0,
+    timelineBytes: timeline ? bytesOf(timeline) : 0,
     setting: settingOf(state),
     thumbnail: own ? await thumbnail(frames[0]) : null,
   };
   const result = found && found !== before?.found && { settings: settingsOf(state), found };
-  await keep(session, fresh ? source : null, found ? result || null : "drop");
-  written = { source, found };
+  const passes = timeline !== before?.timeline && timeline;
+  await keep(
+    ...([session, fresh ? source : null, found ? result || null : "drop"] as const),
+    timeline ? passes || null : "drop",
+  );
+  written = { source, found, timeline };
   await list();
 }
 
@@ -89,12 +100,13 @@ export async function resume(id: string, view?: string): Promise<boolean> {
   await flush();
   const kept = await recall(id).catch(() => null);
   if (!kept) return false;
-  const { source, result } = kept;
+  const { source, result, timeline } = kept;
   const setting = { ...kept.session.setting, ...(view ? { view } : {}) };
   const found = result && result.settings === settingsOf(setting) ? result.found : null;
   const done = await open(source, "Opening what was kept", setting, found);
   if (done && store.state.source === source) {
-    written = { source, found: null };
+    written = { source, found: null, timeline };
+    store.update({ timeline });
     await fillSlots(source);
   }
   return done;

@@ -1,7 +1,7 @@
 /** Results to take away: the view as it is, and the files that the command line writes too. */
 
 import { byId, make } from "../dom";
-import { ask } from "../session";
+import { askShown } from "../session";
 import { stagePicture } from "../stage/snapshot";
 import { store } from "../store";
 import { awaited, wantedParams } from "../views";
@@ -26,7 +26,9 @@ export function mountFiles(): void {
     byId("files").replaceChildren();
   };
   list.addEventListener("click", async () => {
-    const files = await ask("Writing files", (service) => service.files(wantedParams(store.state)));
+    const files = await askShown("Writing files", (service) =>
+      service.files(wantedParams(store.state)),
+    );
     if (!files) return;
     clear();
     byId("files").append(...files.map(link));

@@ -1,6 +1,6 @@
 /** What is being done in one sentence, a bar, and the time that is left. */
 
-import { byId } from "../dom";
+import { byId, make } from "../dom";
 import { paceOf } from "../pace";
 import { estimate, type PassTime } from "../progress";
 import { store, type State } from "../store";
@@ -14,17 +14,18 @@ let seen = 0;
 export function mountProgress(): void {
   store.watch(
     ({ running }) => [running],
-    ({ running, report }) => {
+    ({ running, report, working }) => {
       if (!running) return;
       passes = [];
       at = performance.now();
-      seen = report?.iterations ?? 0;
+      seen = (working ?? report)?.iterations ?? 0;
     },
   );
   store.watch(
-    ({ report, running, busy, playing }) => [report, running, busy, playing],
+    ({ report, working, running, busy, playing }) => [report, working, running, busy, playing],
     (state) => {
-      if (state.running && state.report) count(state.report);
+      const report = state.working ?? state.report;
+      if (state.running && report) count(report);
       show(state);
     },
   );
@@ -42,7 +43,8 @@ function count({ iterations, level }: Report): void {
 }
 
 function show(state: Readonly<State>): void {
-  const { running, busy, report, playing } = state;
+  const { running, busy, playing } = state;
+  const report = state.working ?? state.report;
   const bar = byId<HTMLProgressElement>("progress");
   bar.hidden = !running && (busy === null || playing);
   const doing = byId("doing");
@@ -55,7 +57,11 @@ function show(state: Readonly<State>): void {
   // It does not go back when an estimate was too bright.
   const before = passes.length > 1 ? bar.value : 0;
   bar.value = Math.max(before, Math.min(0.99, done));
-  doing.textContent = `${task(report, state)} ${remaining(left)}`;
+  // A narrow screen has room for the time alone.
+  doing.replaceChildren(
+    make("span", { class: "task" }, `${task(report, state)} `),
+    make("span", { class: "left" }, remaining(left)),
+  );
 }
 
 function task({ level, levels, iterations }: Report, { options, shapes }: Readonly<State>): string {

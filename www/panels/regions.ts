@@ -6,7 +6,7 @@
 import { remove, select } from "../curves";
 import { byId, icon, make } from "../dom";
 import { count, fixed, number, percent } from "../format";
-import { look } from "../session";
+import { look } from "../looking";
 import { addAtCentre } from "../stage/tools";
 import { store, type State } from "../store";
 import type { RegionReport, Shape } from "../worker/protocol";

@@ -36,15 +36,17 @@ export function mountTransport(): void {
   );
 
   store.watch(
-    ({ running, busy, frames, started, report, playing }) => [
+    ({ running, busy, frames, started, report, working, playing }) => [
       playing,
       running,
       busy,
       frames,
       started,
-      report?.status,
+      (working ?? report)?.status,
     ],
-    ({ running, busy, frames, started, report, playing }) => {
+    (state) => {
+      const { running, busy, frames, started, playing } = state;
+      const report = state.working ?? state.report;
       const over = started && report !== null && report.status !== "running";
       const name = running ? "Pause" : over ? "Run again" : "Run";
       main.replaceChildren(icon(running ? "pause" : "run"), name);
@@ -64,7 +66,14 @@ export function mountTransport(): void {
     },
   );
   store.watch(
-    ({ report, running, started, busy, playing }) => [report, running, started, busy, playing],
+    ({ report, working, running, started, busy, playing }) => [
+      report,
+      working,
+      running,
+      started,
+      busy,
+      playing,
+    ],
     (state) => {
       byId("status").textContent = standing(state);
       const expected =
@@ -94,7 +103,9 @@ function mountNextPair(): void {
 
 /** One line: how far, how it ended, how much energy is left, how long it took. */
 export function standing(state: Readonly<State>): string {
-  const { report, running, started, busy, frames, playing } = state;
+  const { running, started, busy, frames, playing } = state;
+  // Of the solver, whichever pass is looked at.
+  const report = state.working ?? state.report;
   if (busy && !playing) return `${busy}…`;
   if (!frames && !playing) return "";
   if (!report || !started) return "Ready";

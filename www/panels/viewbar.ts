@@ -4,7 +4,7 @@ import { find, remove } from "../curves";
 import { byId, make } from "../dom";
 import { number } from "../format";
 import { redo, undo } from "../memory/history";
-import { look } from "../session";
+import { look } from "../looking";
 import { store, type Showing, type State, type Tool, type ViewParams } from "../store";
 import { available, GROUPS, groupOf, viewOf, type Setting } from "../views";
 

@@ -7,6 +7,7 @@ import { present, recorded } from "../memory/history";
 import { open, restore } from "../session";
 import { store } from "../store";
 import { sceneOf } from "../scenes";
+import { entered, type Timeline } from "../timeline/line";
 import { nameOf } from "../views";
 import type { Source } from "../worker/protocol";
 import { bitmapOf, fetchRecording, type Pass, type Recording } from "./recording";
@@ -68,11 +69,28 @@ export async function playAgain(source: Source): Promise<void> {
   await showAll(recording, source);
   const interrupted = store.state.running || store.state.source !== source;
   store.update({ playing: false });
-  if (!interrupted) await restore(found);
+  if (interrupted) return;
+  store.update({ timeline: timelineOf(recording) });
+  await restore(found);
 }
 
 /** Opens the recorded sequence with the recorded result, once the core is there. */
-export function handOver({ camera, shapes, found }: Recording, source: Source): Promise<boolean> {
+export async function handOver(recording: Recording, source: Source): Promise<boolean> {
+  const { camera, shapes, found } = recording;
   const setting = { camera, shapes, options: {} };
-  return open(source, "Rendering the sequence", setting, found);
+  const done = await open(source, "Rendering the sequence", setting, found);
+  if (done && store.state.source === source) store.update({ timeline: timelineOf(recording) });
+  return done;
+}
+
+/** The recorded passes, to be gone through as those of a run. */
+function timelineOf({ name, camera, shapes, passes }: Recording): Timeline | null {
+  const setup = { camera, shapes, options: {} };
+  return passes.reduce<Timeline | null>((timeline, { report: whole, state }) => {
+    const { history, breaks, ...rest } = whole;
+    const report = { ...rest, history: [], breaks: [] };
+    const energy = history.at(-1) ?? NaN;
+    const solve = `recorded ${name}`;
+    return entered(timeline, { solve, origin: null, setup, report, energy, breaks, bytes: state });
+  }, null);
 }

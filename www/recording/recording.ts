@@ -8,6 +8,8 @@ export interface Pass {
   contours: Contour[];
   /** Depth, where it changed. */
   picture: { width: number; height: number; rgb: Uint8Array } | null;
+  /** Where the solver stood; empty where that takes too much. */
+  state: Uint8Array<ArrayBuffer>;
 }
 
 export interface Recording {
@@ -50,11 +52,11 @@ async function decode(file: Uint8Array<ArrayBuffer>): Promise<Recording> {
   const first = await unsqueeze(file.slice(4, end));
   let at = 4 + lengthAt(first);
   const { passes, ...head } = JSON.parse(new TextDecoder().decode(first.subarray(4, at)));
+  const take = (count: number) => first.subarray(at, (at += count));
   for (const pass of passes) {
-    if (!pass.picture) continue;
-    const { width, height } = pass.picture;
-    pass.picture.rgb = first.subarray(at, at + 3 * width * height);
-    at += 3 * width * height;
+    const { picture, state } = pass;
+    if (picture) picture.rgb = take(3 * picture.width * picture.height);
+    pass.state = take(state).slice();
   }
   const { report, contours } = passes.at(-1);
   return { ...head, passes, found: { bytes: file.slice(end), report, contours } };

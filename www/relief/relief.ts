@@ -7,7 +7,7 @@
  */
 
 import { announce, byId } from "../dom";
-import { onMesh } from "../session";
+import { onMesh } from "../looking";
 import { takePicture } from "../panels/files";
 import { store } from "../store";
 import type { MeshData } from "../worker/protocol";

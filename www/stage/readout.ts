@@ -5,7 +5,7 @@
 
 import { announce, byId, make } from "../dom";
 import { fixed, number } from "../format";
-import { ask } from "../session";
+import { askShown } from "../session";
 import { store } from "../store";
 import { wantedParams } from "../views";
 import type { Point, Probe } from "../worker/protocol";
@@ -74,7 +74,7 @@ async function answer(): Promise<void> {
   while (pixel) {
     const [x, y] = pixel;
     const params = wantedParams(store.state);
-    const probe = await ask(null, (service) => service.probe(x, y, params));
+    const probe = await askShown(null, (service) => service.probe(x, y, params));
     const last = pixel as Point | null;
     if (!last || (last[0] === x && last[1] === y)) {
       if (last) write(probe);

@@ -5,19 +5,14 @@
  * opened or configured is built anew before the old is let go, so an error leaves things as they were.
  */
 
-import {
-  findCurves,
-  findFocal,
-  Frame,
-  hornSchunck,
-  Kept,
-  Scene,
-  Solver,
-  type Baseline,
-  type LensEntry,
-  type Picture,
-} from "./core";
+import { findCurves, findFocal, Frame, hornSchunck, Kept, type Picture, type Solver } from "./core";
+import { carriedOn } from "./carried";
+import { squeeze, unsqueeze } from "./keeping";
+import { build, focalFrom, framesOf, free, ownSetup, take, type Owned } from "./owned";
+import { bitmap } from "./pictures";
+import { goOnFrom } from "./standing";
 import type {
+  Begun,
   Camera,
   Contour,
   FocalLength,
@@ -27,6 +22,7 @@ import type {
   Legend,
   MeshData,
   Opened,
+  Origin,
   Part,
   PictureRequest,
   Probe,
@@ -37,22 +33,12 @@ import type {
   Shape,
   Source,
   Status,
+  Standing,
   Whose,
 } from "./protocol";
-import { carriedOn } from "./carried";
-import { squeeze, unsqueeze } from "./keeping";
-import { bitmap } from "./pictures";
 
-/** Frames with more pixels are drawn smaller, and are not copied while a solver is at work on them. */
+/** Frames with more pixels are drawn smaller. */
 const MOST_PIXELS = 4e6;
-
-interface Owned {
-  first: Frame;
-  second: Frame;
-  scene: Scene | null;
-  /** Made when first asked for. */
-  baseline: Baseline | null;
-}
 
 export class Engine {
   private owned: Owned | null = null;
@@ -66,6 +52,9 @@ export class Engine {
   started = false;
   /** Another number wherever what is found may be another. */
   revision = 0;
+  /** Another number for every solve that begins, and where it went on from, if it did. */
+  solve = 0;
+  origin: Origin | null = null;
 
   async open(source: Source, keep: Partial<Setup>, found: Found | null): Promise<Opened> {
     const owned = take(source);
@@ -120,7 +109,11 @@ export class Engine {
       const passes = this.report().iterations;
       solver.setOptions(JSON.stringify(setup.options));
       // With another way of solving all starts anew.
-      if (this.report().iterations < passes) this.started = false;
+      if (this.report().iterations < passes) {
+        this.started = false;
+        this.solve += 1;
+        this.origin = null;
+      }
       this.setup = { ...last, options: setup.options };
     }
     const shapes = differs("shapes");
@@ -146,6 +139,8 @@ export class Engine {
       solver.next(next);
       this.forget();
       this.revision += 1;
+      this.solve += 1;
+      this.origin = null;
       const shapes = kept ?? carriedOn(setup.shapes, this.contours());
       if (kept) solver.setCurves(JSON.stringify(kept));
       owned.first.free();
@@ -217,11 +212,41 @@ export class Engine {
     };
   }
 
-  /** What is found so far, for others to draw; `null` for frames so large that a copy would cost too much. */
-  snapshot(): Uint8Array<ArrayBuffer> | null {
-    const { owned, solver } = this.present();
-    if (owned.first.width * owned.first.height > MOST_PIXELS) return null;
-    return solver.keep(false) as Uint8Array<ArrayBuffer>;
+  /** Where the solver stands, to be put away. */
+  standing(): { setup: Setup; plain: Uint8Array<ArrayBuffer> } {
+    const { solver, setup } = this.present();
+    return { setup, plain: solver.state() as Uint8Array<ArrayBuffer> };
+  }
+
+  /** Stands where another solver on these frames stood. */
+  async visit({ setup, bytes }: Standing): Promise<void> {
+    const plain = bytes.length > 0 ? await unsqueeze(bytes) : null;
+    this.configure(setup);
+    if (!plain) return this.reset();
+    this.forget();
+    this.present().solver.setState(plain);
+    this.started = true;
+    this.revision += 1;
+  }
+
+  /** Goes on under `setup` from where a solver stood after pass `at`. */
+  async goOn(standing: Standing, at: number, setup: Setup): Promise<Begun> {
+    const { solver, whole, shapes } = await goOnFrom(this.present().owned, standing, setup);
+    this.present().solver.free();
+    this.solver = solver;
+    this.setup = { ...setup, shapes };
+    this.begin();
+    this.origin = { at, whole };
+    this.started = true;
+    return { whole, shapes };
+  }
+
+  /** The share of pixels that have other labels where two solvers stood; it stands where the second did. */
+  async apart(one: Standing, other: Standing): Promise<number> {
+    await this.visit(one);
+    const labels = this.present().solver.labels();
+    await this.visit(other);
+    return this.present().solver.labelsApart(labels);
   }
 
   async restore(setup: Setup, found: Found): Promise<void> {
@@ -242,6 +267,8 @@ export class Engine {
 
   /** Nothing has been found yet. */
   private begin(): void {
+    this.solve += 1;
+    this.origin = null;
     this.forget();
     this.carried = null;
     this.started = false;
@@ -357,73 +384,4 @@ export class Engine {
     this.solver = null;
     this.owned = null;
   }
-}
-
-function take(source: Source): Owned {
-  if (source.kind === "scene") {
-    const scene = new Scene(source.name, source.width, source.height);
-    return { first: scene.first(), second: scene.second(), scene, baseline: null };
-  }
-  const first = Frame.decode(source.first.bytes, source.first.name);
-  try {
-    const second = Frame.decode(source.second.bytes, source.second.name);
-    return { first, second, scene: null, baseline: null };
-  } catch (error) {
-    first.free();
-    throw error;
-  }
-}
-
-/** What the photos say of their lens. */
-function lensOf({ first, second }: Owned): LensEntry | null {
-  return JSON.parse(first.lens()) ?? JSON.parse(second.lens());
-}
-
-function focalFrom(owned: Owned): string {
-  if (owned.scene) return "f is the sequence's own.";
-  const lens = lensOf(owned);
-  return lens ? `f is from ${lens.text}.` : "f is a guess: the frame's width.";
-}
-
-/** The frames as they are solved and shown: stretched alike where they use few levels. */
-async function framesOf(solver: Solver): Promise<[ImageBitmap, ImageBitmap]> {
-  const frames = [solver.first(), solver.second()] as const;
-  try {
-    return [await bitmap(frames[0]), await bitmap(frames[1])];
-  } finally {
-    frames.forEach((frame) => frame.free());
-  }
-}
-
-/** A sequence brings camera and curves; other frames get f from their EXIF data or else their width, and no curve. */
-function ownSetup(owned: Owned): Setup {
-  const { first, scene } = owned;
-  return {
-    camera: scene
-      ? JSON.parse(scene.cameraJson)
-      : {
-          focal: lensOf(owned)?.focal ?? first.width,
-          cx: (first.width - 1) / 2,
-          cy: (first.height - 1) / 2,
-        },
-    shapes: scene ? JSON.parse(scene.shapesJson) : [],
-    options: {},
-  };
-}
-
-function build({ first, second }: Owned, { camera, shapes, options }: Setup): Solver {
-  return new Solver(
-    first,
-    second,
-    JSON.stringify(camera),
-    JSON.stringify(shapes),
-    JSON.stringify(options),
-  );
-}
-
-function free({ first, second, scene, baseline }: Owned): void {
-  first.free();
-  second.free();
-  scene?.free();
-  baseline?.free();
 }

@@ -5,13 +5,13 @@ const FORMAT = "deflate-raw";
 export const squeeze = (bytes: Uint8Array<ArrayBuffer>) =>
   through(bytes, new CompressionStream(FORMAT));
 
-/** How the core's bytes begin. */
-const MAGIC = "RLV1";
+/** How the core's bytes begin: a result, a solver's state. */
+const MAGIC = ["RLV1", "RLS1"];
 
 /** Bytes that were never squeezed are left as they are. */
 export async function unsqueeze(bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array<ArrayBuffer>> {
-  const begin = String.fromCharCode(...bytes.subarray(0, MAGIC.length));
-  return begin === MAGIC ? bytes : through(bytes, new DecompressionStream(FORMAT));
+  const begin = String.fromCharCode(...bytes.subarray(0, 4));
+  return MAGIC.includes(begin) ? bytes : through(bytes, new DecompressionStream(FORMAT));
 }
 
 async function through(

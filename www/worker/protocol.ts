@@ -68,6 +68,39 @@ export interface Found {
   contours: Contour[];
 }
 
+/** Where a solver stood after a pass: enough to look at it again, and to go on from there. */
+export interface Standing {
+  setup: Setup;
+  /** The core's own, compressed; none at the start. */
+  bytes: Uint8Array<ArrayBuffer>;
+}
+
+/** Where a solve went on from. */
+export interface Origin {
+  /** The pass, as the timeline counts. */
+  at: number;
+  /** Whether with all that was found, or with the curves alone. */
+  whole: boolean;
+}
+
+/** How a solve went on, and the curves that it goes back to. */
+export interface Begun {
+  whole: boolean;
+  shapes: Shape[];
+}
+
+/** A pass that was made. */
+export interface Pass extends Standing {
+  /** Of which solve: unlike that of any other, in whichever worker. */
+  solve: string;
+  origin: Origin | null;
+  /** What the solver told, but for its history. */
+  report: Report;
+  /** Total energy after it, and after how many passes energy became another sum. */
+  energy: number;
+  breaks: number[];
+}
+
 /** A file as it came from disk, drop or clipboard. */
 export interface FrameFile {
   name: string;
@@ -165,8 +198,10 @@ export interface Progress {
   legends: (Legend | null)[];
   mesh: MeshData | null;
   scores: ScoreTable | null;
-  /** What is found so far, not compressed, where passes take so long that a view should not wait for the next. */
-  found: Uint8Array<ArrayBuffer> | null;
+  /** Passes made since the last progress. */
+  passes: Pass[];
+  /** Whether passes take so long that a view should not wait for the next. */
+  slow: boolean;
 }
 
 /** Something went wrong while nobody was waiting for an answer. */
@@ -221,6 +256,12 @@ export interface Service {
   keep(): Promise<Found | null>;
   /** Shows what was put away. The solver is set up likewise, and starts afresh when it is told to work. */
   restore(setup: Setup, found: Found, wanted: Wanted): Promise<void>;
+  /** Shows where a solver stood. */
+  visit(standing: Standing, wanted: Wanted): Promise<void>;
+  /** The share of pixels that have other labels. */
+  apart(one: Standing, other: Standing): Promise<number>;
+  /** Runs on from where a solver stood after pass `at`, under `setup`; the curves alone go along where that needs it. */
+  goOn(standing: Standing, at: number, setup: Setup, wanted: Wanted, pace: number): Promise<Begun>;
   /**
    * Takes the following frame of a film: the second becomes the first, and what was found is the first guess. On any
    * error all stays.

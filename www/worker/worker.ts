@@ -9,6 +9,7 @@ import * as Comlink from "comlink";
 
 import { catalogues, load, panicMessage } from "./core";
 import { Engine } from "./engine";
+import { keepPass, takePasses } from "./passes";
 import { measure, preview } from "./pictures";
 import type { Failure, PictureRequest, Progress, Service, Setup, Wanted } from "./protocol";
 
@@ -91,6 +92,7 @@ async function loop(): Promise<void> {
     while (running) {
       const start = performance.now();
       if (engine.step("all") !== "running") running = false;
+      keepPass(engine);
       took = performance.now() - start;
       publish();
       await rest(running ? start + pace - performance.now() : 0);
@@ -149,8 +151,6 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
     transfer.push(...Object.values(mesh).map(({ buffer }) => buffer));
     to.mesh = { iterations: report.iterations, at: performance.now() };
   }
-  const found = running && took > LONG_MS ? engine.snapshot() : null;
-  if (found) transfer.push(found.buffer);
   const scores = engine.scores();
   const pictures: (ImageBitmap | null)[] = [];
   const legends: Progress["legends"] = [];
@@ -161,6 +161,8 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
     if (request.of !== "found") settled.add(request);
     pictures.push(picture);
   }
+  const passes = await takePasses();
+  transfer.push(...passes.map(({ bytes }) => bytes.buffer));
   return {
     message: {
       id: wanted.id,
@@ -174,7 +176,8 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
       legends,
       mesh,
       scores,
-      found,
+      passes,
+      slow: running && took > LONG_MS,
     },
     transfer,
   };
@@ -238,6 +241,27 @@ const service: Service = {
       publish();
     }),
 
+  visit: (standing, wanted) =>
+    guard(async () => {
+      await engine.visit(standing);
+      look = looked(wanted);
+      publish();
+    }),
+
+  apart: (one, other) => guard(() => engine.apart(one, other)),
+
+  goOn: (standing, at, setup, wanted, least) =>
+    guard(async () => {
+      stop();
+      const begun = await engine.goOn(standing, at, setup);
+      look = looked(wanted);
+      pace = least;
+      running = true;
+      void loop();
+      publish();
+      return begun;
+    }),
+
   follow: (next) =>
     guard(async () => {
       stop();
@@ -284,6 +308,7 @@ const service: Service = {
     obey(setup, wanted, () => {
       stop();
       engine.step(part);
+      keepPass(engine);
     }),
 
   reset: (setup, wanted) =>

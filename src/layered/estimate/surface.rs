@@ -43,6 +43,29 @@ impl Surface {
         }
     }
 
+    /// The surface with these control points, the first of which lies at `corner`; at least two each way.
+    pub fn of(
+        spacing: usize,
+        [left, top]: [usize; 2],
+        [columns, rows]: [usize; 2],
+        rho: Vec<f32>,
+    ) -> Self {
+        debug_assert_eq!(rho.len(), columns * rows);
+        Self {
+            spacing,
+            left,
+            top,
+            columns,
+            rows,
+            rho,
+        }
+    }
+
+    /// Pixels of the finest scale left of and above the first control point.
+    pub fn corner(&self) -> [usize; 2] {
+        [self.left, self.top]
+    }
+
     /// The surface through the means of `rho`, a grid of the finest scale, around each control point.
     pub fn through(spacing: usize, rho: &Grid<f32>) -> Self {
         let (width, height) = (rho.width(), rho.height());

@@ -1,0 +1,231 @@
+/**
+ * The timeline under the stage: the energy along it, a range input over that which goes to any pass, steps, play, a
+ * sentence on the pass shown, and a second line that goes on from there.
+ */
+
+import { announce, byId, icon, make } from "../dom";
+import { store, type State } from "../store";
+import { drawChart, scalesOf, shareOf } from "./chart";
+import { apartAt, flicker, flickers } from "./compare";
+import { firstOf, goOn, goTo, isPlaying, onPlaying, placeOf, play, stop, walk } from "./going";
+import { endOf, keptAt, lengthOf, type Timeline } from "./line";
+import {
+  comparison,
+  differences,
+  energySentence,
+  lineName,
+  passSentence,
+  START,
+  thinnedSentence,
+} from "./sentences";
+
+/** How long a pass is shown when the timeline plays, milliseconds. */
+const BEATS = [
+  { value: 2500, label: "2.5 s a pass" },
+  { value: 1200, label: "1.2 s a pass" },
+  { value: 500, label: "0.5 s a pass" },
+];
+const USUAL = 1200;
+
+const back = button("Back a pass", "step");
+const playing = button("Play the passes", "run");
+const on = button("On a pass", "step");
+const beat = make("select", { "aria-label": "Time of a pass when they play", class: "beat" });
+const chart = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+const scales = make("div", { class: "scales", "aria-hidden": "true" });
+const range = make("input", { type: "range", id: "pass", min: 0, step: 1, "aria-label": "Pass" });
+const sentence = make("p", { id: "pass-sentence", class: "sentence" });
+const going = make("button", { type: "button", id: "go-on" }, "Go on from here");
+const lines = make("fieldset", { class: "segments small" });
+const turns = make("button", { type: "button", id: "flicker", "aria-pressed": "false" }, "Flicker");
+const apart = make("p", { id: "apart", class: "apart" });
+const two = make("div", { class: "two-lines", hidden: true }, lines, turns, apart);
+
+function button(name: string, picture: string): HTMLButtonElement {
+  const title = { title: name, "aria-label": name };
+  return make("button", { type: "button", class: "icon-only", ...title }, icon(picture));
+}
+
+export function mountTimeline(): void {
+  beat.append(
+    ...BEATS.map(({ value, label }) => make("option", { value, selected: value === USUAL }, label)),
+  );
+  chart.setAttribute("class", "energy-line");
+  chart.setAttribute("aria-hidden", "true");
+  byId("timeline").append(
+    make(
+      "div",
+      { class: "time-row" },
+      make("div", { class: "steps" }, back, playing, on),
+      make("div", { class: "track" }, scales, chart, range),
+      beat,
+    ),
+    make("div", { class: "time-words" }, sentence, going),
+    two,
+  );
+  range.addEventListener("input", () => {
+    rest();
+    want(Number(range.value));
+  });
+  back.addEventListener("click", () => void step(-1));
+  on.addEventListener("click", () => void step(1));
+  playing.addEventListener("click", () => {
+    flickering(false);
+    if (isPlaying()) stop();
+    else void play(() => Number(beat.value));
+  });
+  onPlaying((plays) => {
+    playing.replaceChildren(icon(plays ? "pause" : "run"));
+    playing.title = plays ? "Stop playing" : "Play the passes";
+    playing.ariaLabel = playing.title;
+  });
+  going.addEventListener("click", () => {
+    rest();
+    void goOn();
+  });
+  turns.addEventListener("click", () => {
+    stop();
+    flickering(!flickers());
+  });
+  lines.addEventListener("change", (event) => {
+    rest();
+    const line = Number((event.target as HTMLInputElement).value);
+    void goTo({ line, at: placeOf(store.state).at });
+  });
+  store.watch(({ timeline }) => [timeline], drawLines);
+  store.watch(
+    ({ timeline, visit, started, running, busy, report }) => [
+      ...[timeline, visit, started, running, busy, report],
+    ],
+    show,
+  );
+  // Curves drawn anew, or another camera, are of the start.
+  store.watch(
+    ({ shapes, camera }) => [shapes, camera],
+    () => {
+      rest();
+      const { visit, timeline } = store.state;
+      if (visit && timeline) void goTo({ line: timeline.lines.length - 1, at: Infinity });
+    },
+  );
+}
+
+async function step(by: number): Promise<void> {
+  rest();
+  await walk(by);
+  announce(sentence.textContent ?? "");
+}
+
+/** Nothing moves by itself. */
+function rest(): void {
+  stop();
+  flickering(false);
+}
+
+function flickering(on: boolean): void {
+  if (on === flickers()) return;
+  flicker(on);
+  turns.ariaPressed = String(on);
+}
+
+let wanted: number | null = null;
+
+/** Goes there with the next display refresh, the last of those wanted by then. */
+function want(at: number): void {
+  if (wanted === null) {
+    requestAnimationFrame(() => {
+      const at = wanted!;
+      wanted = null;
+      void goTo({ line: placeOf(store.state).line, at });
+    });
+  }
+  wanted = at;
+}
+
+function drawLines(state: Readonly<State>): void {
+  const { timeline } = state;
+  byId("timeline").hidden = timeline === null;
+  if (!timeline) return rest();
+  range.min = String(firstOf(state));
+  range.max = String(lengthOf(timeline));
+  two.hidden = timeline.lines.length < 2;
+  if (two.hidden) return flickering(false);
+  lines.replaceChildren(
+    make("legend", { class: "visually-hidden" }, "Line shown"),
+    ...timeline.lines.map((line, i) =>
+      make(
+        "label",
+        { class: `line-${i}` },
+        make("input", { type: "radio", name: "line", value: i }),
+        make("span", {}, lineName(timeline, line, i > 0)),
+      ),
+    ),
+  );
+}
+
+/** What the chart was drawn for. */
+let drawn: [Timeline, number] | null = null;
+
+function show(state: Readonly<State>): void {
+  const { timeline, running, busy } = state;
+  if (!timeline) return;
+  const place = placeOf(state);
+  const line = timeline.lines[place.line]!;
+  if (drawn?.[0] !== timeline || drawn[1] !== place.line) {
+    drawChart(chart, timeline, place.line);
+    scales.replaceChildren(...scalesOf(timeline, place.line).map(tag));
+    drawn = [timeline, place.line];
+  }
+  const end = endOf(timeline, line);
+  const kept = keptAt(timeline, place);
+  // Where the solver stands, it says so itself.
+  const own = state.visit ? null : state.report;
+  const at = own ? place.at : (kept?.at ?? place.at);
+  const report = place.at > timeline.first ? (own ?? kept?.pass.report) : null;
+  range.value = String(place.at);
+  range.style.setProperty("--share", String(shareOf(timeline, place.at)));
+  range.dataset["line"] = String(place.line);
+  const text = report
+    ? passSentence(timeline, line, at, report) + thinnedSentence(place.at, at)
+    : START;
+  const left = report ? energySentence(timeline, line, at) : "";
+  sentence.textContent = `${text} ${left}`;
+  range.setAttribute("aria-valuetext", report ? `Pass ${at} of ${end}. ${left}` : "The start");
+  const choice = lines.querySelector<HTMLInputElement>(`input[value="${place.line}"]`);
+  if (choice) choice.checked = true;
+  back.disabled = place.at <= firstOf(state);
+  on.disabled = place.at >= end;
+  playing.disabled = end <= firstOf(state);
+  going.disabled = state.visit === null || busy !== null;
+  going.title = going.disabled
+    ? "Go back to a pass first"
+    : "Runs on from the pass shown, with the settings as they are now, as a second line";
+  compare(timeline, place.at, running);
+}
+
+/** The name of a scale, where it begins. */
+function tag({ share, name }: { share: number; name: string }): HTMLElement {
+  const element = make("span", {}, name);
+  element.style.left = `${100 * share}%`;
+  return element;
+}
+
+let compared = 0;
+
+/** How far the two lines are apart here, once nobody moves along them. */
+function compare(timeline: Timeline, at: number, running: boolean): void {
+  const [one, other] = timeline.lines;
+  if (running) apart.textContent = "";
+  if (!one || !other || running) return;
+  const mine = ++compared;
+  setTimeout(async () => {
+    if (mine !== compared || flickers()) return;
+    const share = await apartAt(timeline, at);
+    if (mine !== compared) return;
+    const [before, after] = [one, other].map(
+      (line) => line.passes.at(-1)?.pass.setup.options ?? {},
+    );
+    const labels = store.state.catalogues?.options ?? [];
+    apart.textContent = comparison(timeline, at, share, differences(before!, after!, labels));
+  }, 250);
+}

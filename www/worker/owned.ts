@@ -1,0 +1,82 @@
+/** Two frames of the core, where they come from, and the solver that is built on them. */
+
+import { Frame, Scene, Solver, type Baseline, type LensEntry } from "./core";
+import { bitmap } from "./pictures";
+import type { Setup, Source } from "./protocol";
+
+export interface Owned {
+  first: Frame;
+  second: Frame;
+  scene: Scene | null;
+  /** Made when first asked for. */
+  baseline: Baseline | null;
+}
+
+export function take(source: Source): Owned {
+  if (source.kind === "scene") {
+    const scene = new Scene(source.name, source.width, source.height);
+    return { first: scene.first(), second: scene.second(), scene, baseline: null };
+  }
+  const first = Frame.decode(source.first.bytes, source.first.name);
+  try {
+    const second = Frame.decode(source.second.bytes, source.second.name);
+    return { first, second, scene: null, baseline: null };
+  } catch (error) {
+    first.free();
+    throw error;
+  }
+}
+
+/** What the photos say of their lens. */
+function lensOf({ first, second }: Owned): LensEntry | null {
+  return JSON.parse(first.lens()) ?? JSON.parse(second.lens());
+}
+
+export function focalFrom(owned: Owned): string {
+  if (owned.scene) return "f is the sequence's own.";
+  const lens = lensOf(owned);
+  return lens ? `f is from ${lens.text}.` : "f is a guess: the frame's width.";
+}
+
+/** The frames as they are solved and shown: stretched alike where they use few levels. */
+export async function framesOf(solver: Solver): Promise<[ImageBitmap, ImageBitmap]> {
+  const frames = [solver.first(), solver.second()] as const;
+  try {
+    return [await bitmap(frames[0]), await bitmap(frames[1])];
+  } finally {
+    frames.forEach((frame) => frame.free());
+  }
+}
+
+/** A sequence brings camera and curves; other frames get f from their EXIF data or else their width, and no curve. */
+export function ownSetup(owned: Owned): Setup {
+  const { first, scene } = owned;
+  return {
+    camera: scene
+      ? JSON.parse(scene.cameraJson)
+      : {
+          focal: lensOf(owned)?.focal ?? first.width,
+          cx: (first.width - 1) / 2,
+          cy: (first.height - 1) / 2,
+        },
+    shapes: scene ? JSON.parse(scene.shapesJson) : [],
+    options: {},
+  };
+}
+
+export function build({ first, second }: Owned, { camera, shapes, options }: Setup): Solver {
+  return new Solver(
+    first,
+    second,
+    JSON.stringify(camera),
+    JSON.stringify(shapes),
+    JSON.stringify(options),
+  );
+}
+
+export function free({ first, second, scene, baseline }: Owned): void {
+  first.free();
+  second.free();
+  scene?.free();
+  baseline?.free();
+}
