@@ -153,7 +153,9 @@ test("a second line goes on with other settings, and both are compared", async (
   expect(one).toEqual(first);
   expect(other!.slice(0, 7)).toEqual(first!.slice(0, 7));
   expect(other![7]).not.toBe(first![7]);
-  await expect(page.locator("#apart")).toContainText(/Labels differ in [0-9.]+\s%/);
+  await expect(page.locator("#apart")).toContainText(/Labels differ in [0-9.]+\s%/, {
+    timeout: PATIENCE,
+  });
   await expect(page.locator("#apart")).not.toContainText("differ in 0.00");
   await chooseView(page, "Labels");
   const after = await picture(page);
