@@ -5,10 +5,11 @@
 //! | --- | --- |
 //! | transparent | alpha is 0 in either frame |
 //! | border | brightness is at most [`BLACK`] from the frame's edge on, in the same places in both frames |
-//! | before the picture | the frames differ by at most [`STILL`] all over a window whose corners would show a move of an eighth of a pixel, while [`MOVING`] of such windows elsewhere move |
+//! | before the picture | pixels of one brightness differ by at most [`STILL`] between the frames and are set off sharply all around in both, while [`MOVING`] of the picture's edges move |
 //!
-//! A window's corners show by the smaller eigenvalue of Σ ∇I ∇Iᵀ. Brightness is continued into such places from around
-//! them, mean over mean on ever coarser pixels, so that nothing there stands still, or has an edge, for whoever reads it.
+//! A closed outline that is sharp at the same pixels in both frames does not move, in whichever direction. Brightness is
+//! continued into such places from around them, mean over mean on ever coarser pixels, so that nothing there stands
+//! still, or has an edge, for whoever reads it.
 
 use super::frame::Frame;
 use crate::grid::Grid;
@@ -21,16 +22,15 @@ const SAME: f64 = 0.95;
 const BORDER: [f64; 2] = [0.005, 0.6];
 /// Grey levels by which what stands still may differ.
 const STILL: f32 = 1.0;
-/// Half the side of a window, pixels.
-const HALF: usize = 2;
-/// The smaller eigenvalue for each pixel of a window, (grey levels/px)².
-const CORNERS: f32 = 64.0;
-/// Share of the windows with corners that move.
+/// Grey levels by which neighbours of one brightness differ at most, and by which others are set off at least.
+const STEP: [f32; 2] = [3.0, 16.0];
+/// Share of the outline that is set off.
+const SET_OFF: f64 = 0.9;
+/// Grey levels between neighbours at an edge, and the share of such pixels that move.
+const EDGE: f32 = 8.0;
 const MOVING: f64 = 0.8;
-/// Windows that stand still, at least.
-const FEWEST: usize = 8;
-/// Pixels by which what stands still reaches beyond the middle of a window.
-const REACH: usize = 4;
+/// Pixels of a letter at least, and the share of the frame that it covers at most.
+const LETTER: (usize, f64) = (6, 0.05);
 
 /// 1 where both frames' brightness shows nothing of the scene; `None` where it does everywhere.
 pub(super) fn absent(first: &Frame, second: &Frame) -> Option<Grid<u8>> {
@@ -137,50 +137,61 @@ fn black_at_edges(grey: &Grid<f32>) -> Grid<u8> {
 
 fn mark_overlay([first, second]: [&Grid<f32>; 2], mask: &mut Grid<u8>) {
     let (width, height) = (first.width(), first.height());
-    let margin = HALF + 1;
-    if width <= 2 * margin || height <= 2 * margin {
+    let still = |at: (usize, usize)| (first[at] - second[at]).abs() <= STILL;
+    let (mut edges, mut at_rest) = (0usize, 0usize);
+    for y in 1..height {
+        for x in 1..width {
+            let here = first[(x, y)];
+            let step = (here - first[(x - 1, y)]).abs() + (here - first[(x, y - 1)]).abs();
+            if step > EDGE && mask[(x, y)] == 0 {
+                edges += 1;
+                at_rest += usize::from(still((x, y)));
+            }
+        }
+    }
+    if at_rest as f64 > (1.0 - MOVING) * edges as f64 {
         return;
     }
-    let inner = || {
-        let rows = margin..height - margin;
-        rows.flat_map(move |y| (margin..width - margin).map(move |x| (x, y)))
-    };
-    let still = |at: (usize, usize)| window(at).all(|p| (first[p] - second[p]).abs() <= STILL);
-    let shows = |at: (usize, usize)| mask[at] == 0 && corners(first, at) > CORNERS;
-    // A sample of the windows tells whether the picture moves.
-    let sampled = inner().filter(|(x, y)| x % 3 == 0 && y % 3 == 0 && shows((*x, *y)));
-    let (mut all, mut at_rest) = (0usize, 0usize);
-    for at in sampled {
-        all += 1;
-        at_rest += usize::from(still(at));
-    }
-    if at_rest as f64 > (1.0 - MOVING) * all as f64 {
-        return;
-    }
-    let found: Vec<_> = inner().filter(|&at| still(at) && shows(at)).collect();
-    if found.len() >= FEWEST {
-        found.into_iter().for_each(|at| spread(mask, at, REACH));
+    let most = (LETTER.1 * first.len() as f64) as usize;
+    let mut seen = mask.clone();
+    for start in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        if seen[start] != 0 || !still(start) {
+            continue;
+        }
+        seen[start] = 1;
+        let (mut letter, mut next) = (vec![start], 0);
+        let (mut around, mut set_off) = (0usize, 0usize);
+        while let Some(&at) = letter.get(next) {
+            next += 1;
+            for other in neighbours(at, width, height) {
+                if (first[other] - first[at]).abs() <= STEP[0] && still(other) {
+                    if seen[other] == 0 {
+                        seen[other] = 1;
+                        letter.push(other);
+                    }
+                } else {
+                    let off = |grey: &Grid<f32>| (grey[other] - grey[at]).abs() > STEP[1];
+                    around += 1;
+                    set_off += usize::from(off(first) && off(second));
+                }
+            }
+        }
+        let alone = set_off as f64 >= SET_OFF * around as f64;
+        if alone && (LETTER.0..=most).contains(&letter.len()) {
+            letter.into_iter().for_each(|at| spread(mask, at, 1));
+        }
     }
 }
 
-fn window((x, y): (usize, usize)) -> impl Iterator<Item = (usize, usize)> {
-    let rows = y - HALF..=y + HALF;
-    rows.flat_map(move |y| (x - HALF..=x + HALF).map(move |x| (x, y)))
-}
-
-/// The smaller eigenvalue of Σ ∇I ∇Iᵀ over a window, for each of its pixels.
-fn corners(grey: &Grid<f32>, at: (usize, usize)) -> f32 {
-    let (mut xx, mut xy, mut yy) = (0.0f32, 0.0f32, 0.0f32);
-    for (x, y) in window(at) {
-        let dx = 0.5 * (grey[(x + 1, y)] - grey[(x - 1, y)]);
-        let dy = 0.5 * (grey[(x, y + 1)] - grey[(x, y - 1)]);
-        xx += dx * dx;
-        xy += dx * dy;
-        yy += dy * dy;
-    }
-    let half = 0.5 * (xx + yy);
-    let pixels = (2 * HALF + 1).pow(2) as f32;
-    (half - (half * half - (xx * yy - xy * xy)).max(0.0).sqrt()) / pixels
+fn neighbours(
+    (x, y): (usize, usize),
+    width: usize,
+    height: usize,
+) -> impl Iterator<Item = (usize, usize)> {
+    let rows = y.saturating_sub(1)..(y + 2).min(height);
+    let across = move || x.saturating_sub(1)..(x + 2).min(width);
+    rows.flat_map(move |j| across().map(move |i| (i, j)))
+        .filter(move |&at| at != (x, y))
 }
 
 fn spread(mask: &mut Grid<u8>, (x, y): (usize, usize), reach: usize) {
@@ -205,10 +216,13 @@ mod tests {
     /// A picture that moves by `t`, between bars, with a word before it.
     fn shown(t: f32, bars: bool, word: bool) -> Frame {
         frame(|x, y| {
-            let letter = (60..84).contains(&x) && (40..48).contains(&y) && (x / 3 + y / 4) % 2 == 0;
+            // Thin letters: frames of a pixel's width.
+            let (i, j) = (x % 8, y.wrapping_sub(40));
+            let word = word && (60..84).contains(&x) && j < 8;
+            let letter = i < 6 && (i == 0 || i == 5 || j == 0 || j == 7);
             match (bars && !(8..56).contains(&y), word && letter) {
                 (true, _) => 0.0,
-                (_, true) => 235.0,
+                (_, true) => 255.0,
                 _ => texture(x as f32 - t, y as f32 - 0.4 * t),
             }
         })
