@@ -22,8 +22,8 @@ const SAME: f64 = 0.95;
 const BORDER: [f64; 2] = [0.005, 0.6];
 /// Grey levels by which what stands still may differ.
 const STILL: f32 = 1.0;
-/// Grey levels by which neighbours of one brightness differ at most, and by which others are set off at least.
-const STEP: [f32; 2] = [3.0, 16.0];
+/// Grey levels by which neighbours of one brightness differ at most, and others in both frames more.
+const STEP: f32 = 12.0;
 /// Share of the outline that is set off.
 const SET_OFF: f64 = 0.9;
 /// Grey levels between neighbours at an edge, and the share of such pixels that move.
@@ -164,13 +164,13 @@ fn mark_overlay([first, second]: [&Grid<f32>; 2], mask: &mut Grid<u8>) {
         while let Some(&at) = letter.get(next) {
             next += 1;
             for other in neighbours(at, width, height) {
-                if (first[other] - first[at]).abs() <= STEP[0] && still(other) {
+                if (first[other] - first[at]).abs() <= STEP && still(other) {
                     if seen[other] == 0 {
                         seen[other] = 1;
                         letter.push(other);
                     }
                 } else {
-                    let off = |grey: &Grid<f32>| (grey[other] - grey[at]).abs() > STEP[1];
+                    let off = |grey: &Grid<f32>| (grey[other] - grey[at]).abs() > STEP;
                     around += 1;
                     set_off += usize::from(off(first) && off(second));
                 }
