@@ -40,7 +40,7 @@ ${table([
   ["--centre X,Y", "principal point; the frame's centre when left out"],
   ["--circle X,Y,R", `a curve to start from; up to ${maxCurves} curves, each on one moving object`],
   ["--polygon X1,Y1,X2,Y2,X3,Y3,…", "a curve to start from"],
-  ["--auto", "finds up to 4 curves to start from, in place of --circle and --polygon"],
+  ["--auto", "finds up to 7 curves to start from, in place of --circle and --polygon"],
   ["--out DIR", "where results go (out)"],
 ])}
 

@@ -141,8 +141,19 @@ const briefly = (shape: Shape) =>
     : `${shape.points.length} corners`;
 
 /** Curves are in front of the background anyway: only other curves are worth a word. */
-function facing({ pixels, share, model, rigid, part_of, ambiguous, in_front_of }: RegionReport): string {
-  const facts: string[] = [`${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)}`, rigid ? model : "non-rigid"];
+function facing({
+  pixels,
+  share,
+  model,
+  rigid,
+  part_of,
+  ambiguous,
+  in_front_of,
+}: RegionReport): string {
+  const facts: string[] = [
+    `${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)}`,
+    rigid ? model : "non-rigid",
+  ];
   if (part_of != null) facts.push(part_of > 0 ? `one with ${part_of}?` : "background?");
   if (ambiguous) facts.push("two explanations fit equally");
   const curves = in_front_of.filter((label) => label > 0);
