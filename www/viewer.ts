@@ -121,7 +121,9 @@ export class Viewer {
   }
 
   private refused({ name, message }: Error): null {
-    if (name !== "Ended") this.failed(message);
+    // Whoever ended it may have put up another.
+    if (name === "Ended") return null;
+    this.failed(message);
     this.end();
     return null;
   }

@@ -12,14 +12,14 @@
 use exif::{Exif, In, Reader, Tag, Value};
 use serde::Serialize;
 
-#[cfg(feature = "decoders")]
 /// Width of a frame of 35 mm film, mm.
+#[cfg(feature = "decoders")]
 const FILM: f64 = 36.0;
-#[cfg(feature = "decoders")]
 /// Focal lengths that lenses have, in shares of the longer side.
-const PLAUSIBLE: std::ops::RangeInclusive<f64> = 0.1..=100.0;
 #[cfg(feature = "decoders")]
+const PLAUSIBLE: std::ops::RangeInclusive<f64> = 0.1..=100.0;
 /// TIFF files of more bytes are not searched.
+#[cfg(feature = "decoders")]
 const MOST_TIFF: usize = 64_000_000;
 
 /// What a photo says of its lens.
@@ -62,8 +62,8 @@ impl std::fmt::Display for Lens {
 }
 
 impl Lens {
-    #[cfg(feature = "decoders")]
     /// Of an EXIF block and the size of the frame.
+    #[cfg(feature = "decoders")]
     pub(super) fn of_exif(block: Vec<u8>, width: usize, height: usize) -> Option<Self> {
         let data = Reader::new().read_raw(block).ok()?;
         let side = width.max(height) as f64;
@@ -71,8 +71,8 @@ impl Lens {
         found.filter(|lens| PLAUSIBLE.contains(&(lens.focal / side)))
     }
 
-    #[cfg(feature = "decoders")]
     /// Of a TIFF file, which is an EXIF block itself.
+    #[cfg(feature = "decoders")]
     pub(super) fn of_tiff(bytes: &[u8], width: usize, height: usize) -> Option<Self> {
         let small = bytes.len() <= MOST_TIFF;
         small.then(|| Self::of_exif(bytes.to_vec(), width, height))?
@@ -120,8 +120,8 @@ fn of_sensor(data: &Exif, side: f64) -> Option<Lens> {
     })
 }
 
-#[cfg(feature = "decoders")]
 /// A number above 0.
+#[cfg(feature = "decoders")]
 fn number(data: &Exif, tag: Tag) -> Option<f64> {
     let value = match &data.get_field(tag, In::PRIMARY)?.value {
         Value::Rational(all) => all.first()?.to_f64(),

@@ -18,7 +18,7 @@ pub(super) const STIFFNESS: [f64; 2] = [1e5, 1e6];
 /// Gauss–Newton steps of motion with depth, and of depth alone.
 const STEPS: usize = 2;
 /// A region with more pixels than this shows which motion it has on the next coarser scale.
-const LARGE: usize = 16000;
+const LARGE: usize = 20_000;
 /// λ in units of the largest cost of a pixel, per pixel of length: while regions are planes, and from then on.
 const LENGTH: [f32; 2] = [0.2, 1.5];
 /// How far labels move while regions are planes, on coarse scales, and on the finest.

@@ -5,8 +5,9 @@ use serde::Deserialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::files::listed;
-use super::solver::{PICTURES, score_table};
-use super::{Frame, Json, Mesh, Picture, Scene, Solver, Word, draw, write};
+use super::shown::Shown;
+use super::solver::PICTURES;
+use super::{Frame, Json, Mesh, Picture, Scene, Solver, Word, draw};
 use crate::curves::{Contour, differing};
 use crate::error::Error;
 use crate::file::kept::{self, Precision};
@@ -15,7 +16,6 @@ use crate::file::{png, result};
 use crate::frames::FramePair;
 use crate::interpretation::Interpretation;
 use crate::motion_model::MotionModel;
-use crate::probe::probe;
 use crate::view::{self, ViewParams};
 
 /// What is taken from a `Contour`.
@@ -148,26 +148,17 @@ impl Kept {
         params: &Json,
         scene: &Scene,
     ) -> Result<Picture, Error> {
-        let aligned = view::aligned(&self.found, &scene.sequence().truth)?;
-        let frames = [self.pair.first(), self.pair.second()];
-        draw(&kind.view()?, frames, &aligned, &[], &params.view_params()?)
+        self.shown().aligned(kind, params, scene)
     }
 
     /// What is found at a pixel: a `Probe` as JSON, `null` outside the frame. `params` are those of a view.
     pub fn probe(&self, x: usize, y: usize, params: &Json) -> Result<String, Error> {
-        let params = params.view_params()?;
-        Ok(write(&probe(
-            &self.pair,
-            &self.found,
-            &params.scales,
-            (x, y),
-        )))
+        self.shown().probe((x, y), params)
     }
 
     /// What the colours of a picture stand for: a `Legend` as JSON, `null` where they are no measure.
     pub fn legend(&self, kind: &Word, params: &Json) -> Result<String, Error> {
-        let params = params.view_params()?;
-        Ok(write(&view::legend(&kind.view()?, &self.found, &params)?))
+        self.shown().legend(kind, params)
     }
 
     /// The relief, with the parameters of a view as JSON.
@@ -178,7 +169,7 @@ impl Kept {
 
     /// How far it is from the truth of `scene`: a `ScoreTable` as JSON.
     pub fn scores(&self, scene: &Scene) -> Result<String, Error> {
-        score_table(&self.found, scene)
+        self.shown().scores(scene)
     }
 
     /// All of it, as an array of files `{name, bytes}`. `params` are those of [`Kept::view`].
@@ -202,6 +193,13 @@ impl Kept {
 }
 
 impl Kept {
+    fn shown(&self) -> Shown<'_> {
+        Shown {
+            pair: &self.pair,
+            found: &self.found,
+        }
+    }
+
     fn picture(&self, kind: &str, params: &ViewParams) -> Result<Picture, Error> {
         let frames = [self.pair.first(), self.pair.second()];
         draw(kind, frames, &self.found, &self.contours, params)

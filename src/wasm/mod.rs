@@ -16,6 +16,7 @@ mod kept;
 mod mesh;
 mod panic;
 mod scene;
+mod shown;
 mod solver;
 mod start;
 mod working;

@@ -11,6 +11,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use web_sys::Performance;
 
 use super::files::listed;
+use super::shown::Shown;
 use super::{Frame, Json, Mesh, Picture, Scene, Word, draw, write};
 use crate::camera::Camera;
 use crate::curves::{Contour, Shape};
@@ -20,8 +21,6 @@ use crate::file::{png, result};
 use crate::frames::FramePair;
 use crate::interpretation::Interpretation;
 use crate::options::Options;
-use crate::probe::probe;
-use crate::score::{self, Scores};
 use crate::solver::Report;
 use crate::view::{self, ViewParams};
 
@@ -72,22 +71,6 @@ struct Outline<'a> {
     /// x, y, x, y, … in pixels.
     #[tsify(type = "number[]")]
     points: &'a [f32],
-}
-
-/// How far what is found and the baseline are from the truth.
-#[derive(Serialize, Tsify)]
-struct ScoreTable {
-    found: Scores,
-    baseline: FlowScores,
-}
-
-/// How far a flow is from the true one; null where no true flow is known.
-#[derive(Serialize, Tsify)]
-struct FlowScores {
-    /// Mean end-point error, pixels.
-    aee: Option<f64>,
-    /// Mean angular error, degrees.
-    aae: Option<f64>,
 }
 
 impl<'a> Outline<'a> {
@@ -228,27 +211,17 @@ impl Solver {
         params: &Json,
         scene: &Scene,
     ) -> Result<Picture, Error> {
-        let pair = self.solver.pair();
-        let aligned = view::aligned(self.found(), &scene.sequence().truth)?;
-        let frames = [pair.first(), pair.second()];
-        draw(&kind.view()?, frames, &aligned, &[], &params.view_params()?)
+        self.shown().aligned(kind, params, scene)
     }
 
     /// What is found at a pixel: a `Probe` as JSON, `null` outside the frame. `params` are those of a view.
     pub fn probe(&self, x: usize, y: usize, params: &Json) -> Result<String, Error> {
-        let params = params.view_params()?;
-        Ok(write(&probe(
-            self.solver.pair(),
-            self.found(),
-            &params.scales,
-            (x, y),
-        )))
+        self.shown().probe((x, y), params)
     }
 
     /// What the colours of a picture stand for: a `Legend` as JSON, `null` where they are no measure.
     pub fn legend(&self, kind: &Word, params: &Json) -> Result<String, Error> {
-        let params = params.view_params()?;
-        Ok(write(&view::legend(&kind.view()?, self.found(), &params)?))
+        self.shown().legend(kind, params)
     }
 
     /// The relief, with the parameters of a view as JSON.
@@ -262,7 +235,7 @@ impl Solver {
 
     /// How far this is from the truth of `scene`, and Horn–Schunck from its image motion: a `ScoreTable` as JSON.
     pub fn scores(&self, scene: &Scene) -> Result<String, Error> {
-        score_table(self.found(), scene)
+        self.shown().scores(scene)
     }
 
     /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`].
@@ -312,19 +285,14 @@ impl Solver {
     }
 }
 
-/// How far `found` and Horn–Schunck are from the truth of `scene`: a `ScoreTable` as JSON.
-pub(super) fn score_table(found: &Interpretation, scene: &Scene) -> Result<String, Error> {
-    let truth = &scene.sequence().truth;
-    let found = score::compare(found, truth)?;
-    let baseline = score::compare_flow(&scene.baseline()?.flow, &truth.flow, None)?;
-    let (aee, aae) = baseline.unzip();
-    Ok(write(&ScoreTable {
-        found,
-        baseline: FlowScores { aee, aae },
-    }))
-}
-
 impl Solver {
+    fn shown(&self) -> Shown<'_> {
+        Shown {
+            pair: self.solver.pair(),
+            found: self.found(),
+        }
+    }
+
     pub(super) fn found(&self) -> &Interpretation {
         self.found.get_or_init(|| self.solver.interpretation())
     }

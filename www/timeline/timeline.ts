@@ -35,7 +35,12 @@ const chart = document.createElementNS("http://www.w3.org/2000/svg", "svg");
 const scales = make("div", { class: "scales", "aria-hidden": "true" });
 const range = make("input", { type: "range", id: "pass", min: 0, step: 1, "aria-label": "Pass" });
 const sentence = make("p", { id: "pass-sentence", class: "sentence" });
-const going = make("button", { type: "button", id: "go-on" }, "Go on from here");
+const going = make(
+  "button",
+  { type: "button", id: "go-on" },
+  "Go on",
+  make("span", {}, "\u00a0from here"),
+);
 const lines = make("fieldset", { class: "segments small" });
 const turns = make("button", { type: "button", id: "flicker", "aria-pressed": "false" }, "Flicker");
 const apart = make("p", { id: "apart", class: "apart" });
