@@ -191,12 +191,12 @@ function summarise({ status, iterations, regions, warnings, seconds, expected })
   const end = status === "exhausted" ? "out of iterations" : status;
   console.log(`${end} after ${iterations} passes, ${seconds.total.toFixed(1)} s`);
   const nameOf = (/** @type {number} */ label) => (label === 0 ? "background" : `curve ${label}`);
-  for (const { label, share, model, translation, rotation } of regions) {
+  for (const { label, share, model, rigid, translation, rotation } of regions) {
     const name = nameOf(label);
-    console.log(
-      `${name.padEnd(11)} ${(100 * share).toFixed(1).padStart(5)} %  ${model.padEnd(11)}  ` +
-        `T (${vector(translation)})  ω (${vector(rotation)}) rad`,
-    );
+    const motion = rigid
+      ? `${model.padEnd(11)}  T (${vector(translation)})  ω (${vector(rotation)}) rad`
+      : "non-rigid";
+    console.log(`${name.padEnd(11)} ${(100 * share).toFixed(1).padStart(5)} %  ${motion}`);
   }
   for (const { label, in_front_of: behind } of regions) {
     if (behind.length > 0) {

@@ -91,6 +91,7 @@ fn read_result(u: &mut Unstructured) -> Result<()> {
             translation: u.arbitrary()?,
             rotation: u.arbitrary()?,
             model: u.arbitrary::<bool>()?.then_some(relievo::MotionModel::Full),
+            rigid: None,
         })
     };
     let described = u.int_in_range(0..=9)?;

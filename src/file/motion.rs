@@ -52,6 +52,9 @@ pub struct RegionMotion {
     /// The motion model; files of others may not say.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub model: Option<MotionModel>,
+    /// False where no rigid motion fits the region, and T and ω mean nothing; not written otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rigid: Option<bool>,
 }
 
 /// Seconds spent, in all and in each of the three steps.
@@ -76,6 +79,7 @@ impl RegionMotion {
             translation: motion.translation.to_array(),
             rotation: motion.rotation.to_array(),
             model: Some(*model),
+            rigid: None,
         };
         regions.map(entry).collect()
     }

@@ -9,6 +9,7 @@
 
 use std::sync::Arc;
 
+use super::absent::{absent, continued};
 use super::lens::Lens;
 use super::levels::Levels;
 use super::note::Note;
@@ -224,11 +225,14 @@ pub struct FramePair {
     second: Frame,
     /// The second as it was given.
     unstretched: Frame,
+    /// 1 where brightness shows nothing of the scene.
+    absent: Option<Arc<Grid<u8>>>,
     notes: Vec<Note>,
 }
 
 impl FramePair {
-    /// Pairs two frames. Where they use few levels of brightness, both are stretched alike.
+    /// Pairs two frames. Where they use few levels of brightness, both are stretched alike. Where they show nothing of the
+    /// scene, black bars or a logo, brightness is continued from around.
     ///
     /// # Errors
     /// [`Error::FramesDiffer`] in size, [`Error::FrameConstant`] when one has no contrast,
@@ -259,10 +263,21 @@ impl FramePair {
             notes.push(levels.note(first.step.max(second.step)));
             (first, second) = (levels.stretch(&first), levels.stretch(&second));
         }
+        let absent = absent(&first, &second);
+        if let Some(mask) = &absent {
+            let marked = mask.data().iter().filter(|m| **m != 0).count();
+            notes.push(Note::Absent {
+                share: marked as f64 / mask.len() as f64,
+            });
+            for frame in [&mut first, &mut second] {
+                frame.grey = Arc::new(continued(&frame.grey, mask));
+            }
+        }
         Ok(Self {
             first,
             second,
             unstretched,
+            absent: absent.map(Arc::new),
             notes,
         })
     }
@@ -300,11 +315,29 @@ impl FramePair {
         self.first.height()
     }
 
+    /// Where brightness shows nothing of the scene: 1 at pixels that are transparent, black bars, or a logo that stands
+    /// still over a moving picture, of the size of the frames' brightness; `None` where there are none.
+    pub fn absent(&self) -> Option<&Grid<u8>> {
+        self.absent.as_deref()
+    }
+
     /// Both frames shrunk `n` times, as [`Frame::shrunk`] does it.
     pub fn shrunk(&self, n: usize) -> Self {
-        let second = self.second.shrunk(n);
+        let (first, second) = (self.first.shrunk(n), self.second.shrunk(n));
+        let (width, height) = (first.grey.width(), first.grey.height());
+        let smaller = |mask: &Arc<Grid<u8>>| {
+            let place =
+                |at: usize, from: usize, to: usize| ((2 * at + 1) * from / (2 * to)).min(from - 1);
+            Arc::new(Grid::from_fn(width, height, |x, y| {
+                mask[(
+                    place(x, mask.width(), width),
+                    place(y, mask.height(), height),
+                )]
+            }))
+        };
         Self {
-            first: self.first.shrunk(n),
+            absent: self.absent.as_ref().map(smaller),
+            first,
             unstretched: second.clone(),
             second,
             notes: self.notes.clone(),

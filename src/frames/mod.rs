@@ -1,5 +1,6 @@
 //! From bytes to what the solver reads: decoding, brightness, and its derivatives.
 
+mod absent;
 mod decode;
 mod derivatives;
 mod fields;

@@ -10,6 +10,11 @@ use serde::Serialize;
 )]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Note {
+    /// Part of the frames shows nothing of the scene.
+    Absent {
+        /// Share of the frame, 0–1.
+        share: f64,
+    },
     /// All that is seen lies within so few steps of brightness that detail is lost.
     Faint {
         /// Steps between the darkest and the brightest.
@@ -27,6 +32,11 @@ pub enum Note {
 impl std::fmt::Display for Note {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
+            Self::Absent { share } => write!(
+                f,
+                "{:.1} % of the frames show nothing of the scene: transparent parts, black bars, or a logo or words that stand still over a moving picture. No depth is found there.",
+                100.0 * share
+            ),
             Self::Faint { levels } => write!(
                 f,
                 "The frames are faint: all that they show lies within {levels} levels of brightness. Both are stretched alike; fine relief and small motions may be lost."

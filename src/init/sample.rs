@@ -72,7 +72,19 @@ pub fn small_samples(pair: &FramePair, camera: &Camera) -> Small {
         camera = halved_camera(&camera);
     }
     let found = matches(&frames[0], &frames[1]).into_iter();
-    let samples = found.map(|m| Sample::new(m, &camera));
+    let shown = |[x, y]: [f32; 2]| {
+        pair.absent().is_none_or(|absent| {
+            let place = |at: f32, to: usize, from: usize| {
+                let at = (at.max(0.0) + 0.5) * to as f32 / from as f32;
+                (at as usize).min(to - 1)
+            };
+            let (w, h) = (frames[0].width(), frames[0].height());
+            absent[(place(x, absent.width(), w), place(y, absent.height(), h))] == 0
+        })
+    };
+    let samples = found
+        .filter(|m| shown(m.at) && shown(m.to))
+        .map(|m| Sample::new(m, &camera));
     Small {
         samples: samples.filter(Sample::finite).collect(),
         camera,

@@ -125,6 +125,7 @@ impl Approach for Layered {
             motion: region.state.motion(),
             model: region.model,
             ambiguous: region.ambiguous,
+            rigid: region.rigid,
             part_of: region.part_of,
             in_front_of: if hides[k] { vec![0] } else { Vec::new() },
         };

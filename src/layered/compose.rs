@@ -73,7 +73,7 @@ impl Layered {
         let mut confidence = confidence(&slope, f64::from(self.sigma));
         for (i, c) in confidence.data_mut().iter_mut().enumerate() {
             let region = &self.regions[usize::from(labels.data()[i])];
-            if occluded.data()[i] != 0 || !region.model.translates() || planar {
+            if occluded.data()[i] != 0 || !region.model.translates() || !region.rigid || planar {
                 *c = 0.0;
             } else if region.ambiguous {
                 *c = c.min(AMBIGUOUS);

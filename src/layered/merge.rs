@@ -9,8 +9,8 @@
 //! ```
 //!
 //! The motion of a scene is the background's own, or the one that matches of both agree on: a background of little relief
-//! does not tell its T alone. Where curves are looked for, pairs that lose no more than [`ALIKE`] by it are merged: first
-//! bodies, the pair that loses least first, then what is left with the background. Curves that are drawn stay, and it is
+//! does not tell its T alone. Where curves are looked for, pairs that lose no more than [`ALIKE`] by it are merged as
+//! one body, the pair that loses least first, then what loses no more than [`SCENERY`] with the background. Curves that are drawn stay, and it is
 //! noted: in noise, or where a body happens to move as the background would at another depth, whoever drew it knows better.
 
 use glam::DVec3;
@@ -26,8 +26,11 @@ use crate::motion_model::MotionModel;
 use crate::options::Options;
 use crate::window::Window;
 
-/// What one motion may cost more than two, in variances of the residual: what two motions are charged more.
+/// What one motion and surface may cost more than two, in variances of the residual: what two are charged more.
 const ALIKE: f64 = 150.0;
+/// What a region may cost more as scenery: in variances, and, if that is more, as a share of E, since what no motion
+/// explains grows with the frame.
+const SCENERY: (f64, f64) = (300.0, 0.03);
 /// Gauss–Newton steps of a union at first, and then, if it is not far off.
 const STEPS: [usize; 2] = [3, 6];
 /// How many times too much is far off.
@@ -158,6 +161,8 @@ impl Layered {
         let motions = [Some(own), found.map(|f| f.motion)];
         let apart: f64 = [0, k].map(|k| self.cost_of(k, options)).iter().sum();
         let labels = self.labels.clone();
+        let variance = f64::from(self.sigma * self.sigma);
+        let limit = (SCENERY.0 * variance).max(SCENERY.1 * apart);
         let mut least = f64::INFINITY;
         for motion in motions.into_iter().flatten() {
             if motion.translation == DVec3::ZERO {
@@ -174,12 +179,11 @@ impl Layered {
             }
             let parts = found.map(|f| f.1.energy);
             least = least.min(parts[0] + parts[1]);
-            if least - apart < ALIKE * f64::from(self.sigma * self.sigma) {
+            if least - apart < limit {
                 break;
             }
         }
-        let lost = (least - apart) / f64::from(self.sigma * self.sigma);
-        lost < ALIKE
+        least - apart < limit
     }
 
     /// Region k under another motion, at the depth at which it moves most as it does.

@@ -26,6 +26,7 @@ mod models;
 mod packed;
 mod refine;
 mod region;
+mod rigidity;
 mod scale;
 mod solver;
 mod stages;

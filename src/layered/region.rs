@@ -27,6 +27,8 @@ pub(super) struct Region {
     pub reach: Option<Window>,
     /// ρ pixel by pixel at the frame's size, where depth has steps.
     pub dense: Option<Grid<f32>>,
+    /// Whether a rigid motion fits it, as far as matches tell.
+    pub rigid: bool,
     /// The region with which one motion explains it as well.
     pub part_of: Option<usize>,
     /// Whether it hides a part of the background.
@@ -48,6 +50,7 @@ impl Region {
             window: None,
             reach: None,
             dense: None,
+            rigid: true,
             part_of: None,
             hides: false,
         }

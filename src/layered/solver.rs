@@ -252,6 +252,11 @@ impl Layered {
         }
     }
 
+    fn finished(&mut self) -> (Phase, Next) {
+        self.judge_rigidity();
+        (Phase::Done, Next::Done)
+    }
+
     /// What comes after a pass of the present phase in which so many pixels changed region.
     pub(super) fn after(&mut self, changed: f64, options: &Options) -> (Phase, Next) {
         let still = changed <= options.tolerance;
@@ -280,10 +285,10 @@ impl Layered {
                 } else if options.discontinuities && self.find_unexplained() {
                     (Phase::Refine, Next::Another)
                 } else {
-                    (Phase::Done, Next::Done)
+                    self.finished()
                 }
             }
-            Phase::Refine | Phase::Done => (Phase::Done, Next::Done),
+            Phase::Refine | Phase::Done => self.finished(),
         }
     }
 }

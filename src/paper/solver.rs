@@ -266,6 +266,7 @@ impl Approach for Paper {
             motion,
             model: MotionModel::seen(&self.camera, &motion),
             ambiguous: false,
+            rigid: true,
             part_of: None,
             in_front_of: Vec::new(),
         };

@@ -34,6 +34,8 @@ pub(crate) struct RegionState {
     pub model: MotionModel,
     /// Whether another motion explains the region as well.
     pub ambiguous: bool,
+    /// Whether a rigid motion fits it.
+    pub rigid: bool,
     /// The region with which one motion explains it as well.
     pub part_of: Option<usize>,
     /// Labels of the regions that it hides a part of.

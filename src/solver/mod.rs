@@ -290,7 +290,12 @@ impl Solver {
 
     /// The same on the frames shrunk `n` times, which [`Solver::shrunk_for`] gives.
     pub fn interpretation_shrunk(&self, n: usize) -> Interpretation {
-        let found = self.approach.interpretation(&self.options);
+        let mut found = self.approach.interpretation(&self.options);
+        if let Some(absent) = self.working.pair.absent() {
+            let confidence = found.confidence.data_mut().iter_mut();
+            let gone = confidence.zip(absent.data()).filter(|(_, a)| **a != 0);
+            gone.for_each(|(c, _)| *c = 0.0);
+        }
         let factor = self.working.factor;
         if n == factor {
             return found;

@@ -46,6 +46,9 @@ pub struct RegionReport {
     /// Whether another motion, with another relief, explains the region as well: the flatter one is given, and
     /// confidence is at most one half.
     pub ambiguous: bool,
+    /// Whether a rigid motion fits it. Where none does, T and ω are those that come nearest and mean nothing, and confidence
+    /// is 0.
+    pub rigid: bool,
     /// The label of another region, if one motion explains both as well as two do: they may be one thing, or it may be
     /// scenery at another depth.
     pub part_of: Option<usize>,
@@ -190,6 +193,7 @@ impl Report {
                 rotation: state.motion.rotation.to_array(),
                 model: state.model,
                 ambiguous: state.ambiguous,
+                rigid: state.rigid,
                 part_of: state.part_of,
                 in_front_of: state.in_front_of,
             })
@@ -242,6 +246,16 @@ fn warnings(regions: &[RegionReport]) -> impl Iterator<Item = String> {
         };
         format!("{name} has two explanations that fit equally well; the one with less relief is shown.")
     });
+    let loose = regions
+        .iter()
+        .filter(|r| !r.rigid && r.pixels > 0)
+        .map(|r| {
+            let name = match r.label {
+                0 => "the background".to_owned(),
+                k => format!("region {k}"),
+            };
+            format!("No rigid motion fits {name}: it bends, or several things move there.")
+        });
     let parts = regions.iter().filter(|r| r.pixels > 0).filter_map(|r| {
         let whole = match r.part_of? {
             0 => "the background".to_owned(),
@@ -252,5 +266,5 @@ fn warnings(regions: &[RegionReport]) -> impl Iterator<Item = String> {
             "One motion explains region {label} and {whole} as well as two do: they may be one."
         ))
     });
-    vanished.chain(parts).chain(ambiguous)
+    vanished.chain(loose).chain(parts).chain(ambiguous)
 }

@@ -344,8 +344,12 @@ impl Solver {
             ..
         } = self.solver.report();
         let models: Vec<_> = regions.iter().map(|region| region.model).collect();
+        let mut motions = RegionMotion::list(&found.motions, &models);
+        for (motion, region) in motions.iter_mut().zip(&regions) {
+            motion.rigid = (!region.rigid).then_some(false);
+        }
         MotionFile {
-            regions: RegionMotion::list(&found.motions, &models),
+            regions: motions,
             status: self.status(),
             iterations,
             energy: history,

@@ -147,6 +147,7 @@ fn motion_returns_exactly() {
             translation: [0.1, -0.2, 1e-9],
             rotation: [0.0, 1.0 / 3.0, 0.0],
             model: Some(MotionModel::Rotation),
+            rigid: Some(false),
         }],
         status: "converged".to_owned(),
         iterations: 2,

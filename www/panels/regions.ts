@@ -117,7 +117,7 @@ function refresh({ shapes, selected, report, started, frames }: Readonly<State>)
     const facts = element.querySelector(".facts")!;
     facts.textContent = region ? facing(region) : shape ? briefly(shape) : "everything else";
     const table = element.querySelector<HTMLElement>(".motion")!;
-    table.hidden = !region;
+    table.hidden = !region?.rigid;
     element.querySelector<HTMLElement>(".scale")!.hidden = !region || rows.length < 2;
     if (region) fill(table, region);
   }
@@ -141,8 +141,9 @@ const briefly = (shape: Shape) =>
     : `${shape.points.length} corners`;
 
 /** Curves are in front of the background anyway: only other curves are worth a word. */
-function facing({ pixels, share, model, ambiguous, in_front_of }: RegionReport): string {
-  const facts: string[] = [`${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)}`, model];
+function facing({ pixels, share, model, rigid, part_of, ambiguous, in_front_of }: RegionReport): string {
+  const facts: string[] = [`${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)}`, rigid ? model : "non-rigid"];
+  if (part_of != null) facts.push(part_of > 0 ? `one with ${part_of}?` : "background?");
   if (ambiguous) facts.push("two explanations fit equally");
   const curves = in_front_of.filter((label) => label > 0);
   if (curves.length > 0) facts.push(`in front of ${curves.join(" and ")}`);
