@@ -84,7 +84,7 @@ impl Rig {
         // A plane that faces the camera has no parallax to stretch.
         let range = (near - far).max(0.02 * near);
         let share = params.convergence.unwrap_or_else(|| {
-            let nearest = percentile(&mut border, 0.95).unwrap_or(near);
+            let nearest = percentile(&mut border, 0.95).unwrap_or(far);
             f64::from(((nearest - far) / range).clamp(LEAST_BEHIND, 1.0))
         });
         let convergence = f64::from(far) + share * f64::from(range);
