@@ -24,7 +24,8 @@ async function row(page: Page, x: number, y: number, count: number): Promise<num
           1,
           1,
         ).data;
-        return (r! << 16) | (g! << 8) | b!;
+        // Where a picture is cut off, a level more or less is rounding.
+        return [r!, g!, b!].reduce((sum, level) => 64 * sum + Math.round(level / 6), 0);
       });
     },
     [x, y, count],
@@ -125,7 +126,7 @@ test("every map has a legend with its unit", async ({ opened: page }) => {
   const hold = page.getByRole("button", { name: "Hold the range" });
   await hold.click();
   const before = await look(page);
-  await page.locator("#scale-0").fill("1");
+  await page.locator("#scale-1").fill("1");
   await expect.poll(async () => (await look(page)).print).not.toBe(before.print);
   expect(await told()).toEqual(marks);
   await hold.click();
