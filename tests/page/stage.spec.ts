@@ -24,8 +24,7 @@ async function row(page: Page, x: number, y: number, count: number): Promise<num
           1,
           1,
         ).data;
-        // Where a picture is cut off, a level more or less is rounding.
-        return [r!, g!, b!].reduce((sum, level) => 64 * sum + Math.round(level / 6), 0);
+        return (r! << 16) | (g! << 8) | b!;
       });
     },
     [x, y, count],
@@ -144,14 +143,21 @@ test("a divider shows two views at once, the same pixels on both sides", async (
 }) => {
   await solve(page);
   const { x, y } = await onScreen(page, 240, 60);
-  const at = async () => (await row(page, x, y, 6)).join();
+  const at = () => row(page, x, y, 6);
+  // Where a picture is cut off, a level more or less is rounding.
+  const shows = (those: number[]) => async () =>
+    (await at()).every((colour, i) =>
+      [16, 8, 0].every(
+        (bits) => Math.abs(((colour >> bits) & 255) - ((those[i]! >> bits) & 255)) < 4,
+      ),
+    );
   const frame = await at();
   await chooseView(page, "Labels");
   const labels = await at();
   await chooseView(page, "Curves");
   await page.getByRole("button", { name: "Two views" }).click();
   await page.getByLabel("Right of the divider").selectOption("Found: labels");
-  await expect.poll(at).toBe(labels);
+  await expect.poll(shows(labels)).toBe(true);
   // The pointer takes the bar, and the pixel changes sides.
   const bar = page.getByRole("slider", { name: /Divider/ });
   const box = (await bar.boundingBox())!;
@@ -159,16 +165,16 @@ test("a divider shows two views at once, the same pixels on both sides", async (
   await page.mouse.down();
   await page.mouse.move(box.x + box.width - 30, box.y + box.height / 2, { steps: 6 });
   await page.mouse.up();
-  await expect.poll(at).toBe(frame);
+  await expect.poll(shows(frame)).toBe(true);
   // The keyboard as well.
   await bar.focus();
   await page.keyboard.press("Home");
-  await expect.poll(at).toBe(labels);
+  await expect.poll(shows(labels)).toBe(true);
   await page.getByLabel("Right of the divider").selectOption("Truth: motion");
-  await expect.poll(at).not.toBe(labels);
+  await expect.poll(shows(labels)).toBe(false);
   await expect(page.locator("#message")).toBeHidden();
   await page.getByRole("button", { name: "Two views" }).click();
-  await expect.poll(at).toBe(frame);
+  await expect.poll(shows(frame)).toBe(true);
 });
 
 test.describe("by touch", () => {
