@@ -50,7 +50,8 @@ test("every step of every lesson is set up, and says something", async ({ opened
     await expect
       .poll(() => read(page, (state) => state.lessonStep), { timeout: PATIENCE })
       .toBe(address);
-    await until(page, (state) => state.started && state.busy === null);
+    // The first step of each; the others are passed through.
+    if (address.endsWith("/1")) await until(page, (state) => state.started && state.busy === null);
     expect(await read(page, (state) => state.message), address).toBeNull();
     expect(await lessons(page).locator(".look").innerText(), address).toMatch(/^\w/);
     await expect(lessons(page).locator(".lesson-text p").first()).not.toBeEmpty();

@@ -49,11 +49,7 @@ export function openSheet(id: string, title: string, closed: () => void): Sheet 
     dialog.remove();
     unwatch();
     closed();
-    // A panel that was drawn anew has another button in its place.
-    const again = opener?.isConnected ? opener : opener?.id && document.getElementById(opener.id);
-    (again instanceof HTMLElement && again !== document.body ? again : byId("overlay")).focus({
-      preventScroll: true,
-    });
+    (placeOf(opener) ?? byId("overlay")).focus({ preventScroll: true });
   };
   closePresent = shut;
   close.addEventListener("click", shut);
@@ -62,6 +58,16 @@ export function openSheet(id: string, title: string, closed: () => void): Sheet 
   document.body.append(dialog);
   dialog.showModal();
   return { dialog, body, foot, say: (text) => (status.textContent = text), close: shut };
+}
+
+/** Where the keyboard goes back to. */
+function placeOf(opener: Element | null): HTMLElement | null {
+  // A panel that was drawn anew has another button in its place.
+  const again = opener?.isConnected ? opener : opener?.id && document.getElementById(opener.id);
+  if (!(again instanceof HTMLElement) || again === document.body) return null;
+  // One that has closed meanwhile is opened again by its own button.
+  const closed = again.closest("[popover]:not(:popover-open)");
+  return closed ? document.querySelector(`[popovertarget="${closed.id}"]`) : again;
 }
 
 export function button(name: string, press: () => unknown, kind = ""): HTMLButtonElement {
