@@ -47,6 +47,7 @@ test("a finished result plays before the core is there, and is the core's once i
 test("the recording is what the page's own solver comes to", async ({ page }) => {
   await page.goto("./");
   await until(page, ({ playing, frames, busy }) => !playing && frames !== null && busy === null);
+  await until(page, ({ scores }) => scores !== null);
   const facts = () =>
     read(page, ({ report, scores }) => ({
       history: report!.history,

@@ -95,6 +95,8 @@ async function loop(): Promise<void> {
       keepPass(engine);
       took = performance.now() - start;
       publish();
+      // Before a pass in which nobody is heard, what the last one came to is on its way.
+      if (took > LONG_MS) await composed;
       await rest(running ? start + pace - performance.now() : 0);
     }
   } catch (error) {
@@ -120,6 +122,8 @@ function looked(wanted: Wanted): Look {
 
 let inFlight = false;
 let stale = false;
+/** The message that is being made. */
+let composed: Promise<unknown> = Promise.resolve();
 
 function publish(): void {
   if (inFlight) {
@@ -128,7 +132,9 @@ function publish(): void {
   }
   inFlight = true;
   stale = false;
-  progress(look)
+  const made = progress(look);
+  composed = made.catch(() => {});
+  made
     .then(({ message, transfer }) => send(Comlink.transfer(message, transfer)))
     .catch((error: unknown) => {
       running = false;
