@@ -160,7 +160,7 @@ test("the relief stands, turns by keyboard and mouse, and takes plaster", async 
     await page.getByLabel("Surface").selectOption(surface);
     await changed(surface);
   }
-  const lamp = page.getByRole("button", { name: /^Light from above and the left/ });
+  const lamp = page.getByRole("button", { name: /^Light from above/ });
   await lamp.focus();
   await page.keyboard.press("ArrowDown");
   await changed("light by keyboard");
