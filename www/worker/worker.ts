@@ -96,7 +96,7 @@ async function loop(): Promise<void> {
       took = performance.now() - start;
       publish();
       // Before a pass in which nobody is heard, what the last one came to is on its way.
-      if (took > LONG_MS) await composed;
+      if (took > LONG_MS) await told();
       await rest(running ? start + pace - performance.now() : 0);
     }
   } catch (error) {
@@ -122,8 +122,16 @@ function looked(wanted: Wanted): Look {
 
 let inFlight = false;
 let stale = false;
-/** The message that is being made. */
+/** The message that is being made, and the same until the page has taken it. */
 let composed: Promise<unknown> = Promise.resolve();
+let taken: Promise<unknown> = Promise.resolve();
+
+/** Until the latest is on its way; a page that is busy is not waited for. */
+async function told(): Promise<void> {
+  const late = new Promise((resolve) => setTimeout(resolve, LONG_MS));
+  if (stale) await Promise.race([taken, late]);
+  await composed;
+}
 
 function publish(): void {
   if (inFlight) {
@@ -134,7 +142,7 @@ function publish(): void {
   stale = false;
   const made = progress(look);
   composed = made.catch(() => {});
-  made
+  taken = made
     .then(({ message, transfer }) => send(Comlink.transfer(message, transfer)))
     .catch((error: unknown) => {
       running = false;
