@@ -10,7 +10,7 @@ import * as core from "../../pkg/relievo.js";
 core.initSync({ module: readFileSync(new URL("../../pkg/relievo_bg.wasm", import.meta.url)) });
 
 const FOLDER = new URL("../../recordings/", import.meta.url);
-const MOST_BYTES = 200_000;
+const MOST_BYTES = 240_000;
 
 /** @type {{ name: string }[]} */
 const scenes = JSON.parse(core.sceneCatalogue());

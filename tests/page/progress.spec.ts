@@ -32,7 +32,11 @@ test("a run says what it does, shows a bar that grows, and the time left", async
   await expect(page.locator("#doing")).toContainText(/About .*left/);
   const values: number[] = [];
   while (await bar.isVisible()) {
-    values.push(await bar.evaluate((element: HTMLProgressElement) => element.value).catch(() => 1));
+    // It may be gone by now: then there is nothing to wait for.
+    const value = bar.evaluate((element: HTMLProgressElement) => element.value, null, {
+      timeout: 1000,
+    });
+    values.push(await value.catch(() => 1));
     await page.waitForTimeout(150);
   }
   expect(values.length).toBeGreaterThan(2);

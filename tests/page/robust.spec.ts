@@ -66,7 +66,8 @@ test("a panic is told with its text; the worker is renewed, frames and curves st
   const shapes = await read(page, (state) => state.shapes);
   await page.getByRole("button", { name: "Run" }).click();
   await expect(page.locator("#message")).toContainText("the sky is falling", { timeout: PATIENCE });
-  await until(page, (state) => !state.running && state.report?.iterations === 0);
+  // With the pass before, if that had reached the page.
+  await until(page, (state) => !state.running && state.busy === null && state.report !== null);
   expect(await read(page, (state) => state.shapes)).toEqual(shapes);
   expect(shapes).toHaveLength(3);
   await runPasses(page, 3);
@@ -100,6 +101,8 @@ test("a core that cannot be loaded again can be once the line is back", async ({
   const shapes = await read(page, (state) => state.shapes);
   await page.getByRole("button", { name: "Run" }).click();
   await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
+  // A worker that rests between two passes would answer.
+  await page.waitForTimeout(1000);
   await page.route(/\.wasm$/, (route) => route.abort());
   await page.getByRole("button", { name: "Cancel" }).click();
   await expect(message(page)).toContainText("core cannot be loaded", { timeout: PATIENCE });
