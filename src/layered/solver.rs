@@ -22,6 +22,7 @@ use crate::curves;
 use crate::energy::Energy;
 use crate::frames::{FramePair, Lighting};
 use crate::grid::Grid;
+use crate::init::Small;
 use crate::options::Options;
 use crate::solver::{Approach, Next, Weights};
 use crate::window::Window;
@@ -84,6 +85,8 @@ pub(crate) struct Layered {
     pub(super) before: Option<Before>,
     /// Whether the last pass was taken back.
     pub(super) rejected: bool,
+    /// Matches between the frames, once somebody has asked for them.
+    pub(super) small: Option<Rc<Small>>,
     /// Regions that want depth pixel by pixel, when that is due.
     pub(super) unexplained: Vec<usize>,
 }
@@ -123,6 +126,7 @@ impl Layered {
             weights: Weights::default(),
             before: None,
             rejected: false,
+            small: None,
             unexplained: Vec::new(),
             scales,
         };
@@ -252,7 +256,8 @@ impl Layered {
         }
     }
 
-    fn finished(&mut self) -> (Phase, Next) {
+    fn finished(&mut self, options: &Options) -> (Phase, Next) {
+        self.note_parts(options);
         self.judge_rigidity();
         (Phase::Done, Next::Done)
     }
@@ -270,10 +275,7 @@ impl Layered {
                 (Phase::Planar(done + 1), next)
             }
             Phase::Planar(_) => (Phase::Search, Next::Another),
-            Phase::Search => {
-                self.note_parts(options);
-                (Phase::Rigid(0), Next::Another)
-            }
+            Phase::Search => (Phase::Rigid(0), Next::Another),
             Phase::Rigid(done) => {
                 let [least, most] = if self.warm { [1, 2] } else { PASSES };
                 let enough = done + 1 >= least && (still || alone);
@@ -285,10 +287,10 @@ impl Layered {
                 } else if options.discontinuities && self.find_unexplained() {
                     (Phase::Refine, Next::Another)
                 } else {
-                    self.finished()
+                    self.finished(options)
                 }
             }
-            Phase::Refine | Phase::Done => self.finished(),
+            Phase::Refine | Phase::Done => self.finished(options),
         }
     }
 }
