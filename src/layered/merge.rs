@@ -41,7 +41,7 @@ const DEPTH_STEPS: usize = 6;
 /// How many times nearer than the background, or farther, a part of the scene may be on the mean.
 const NEARER: f64 = 4.5;
 /// Share of a region's matches that the motion of a scene explains, or it is none.
-const POSSIBLE: f64 = 0.5;
+const POSSIBLE: f64 = 0.3;
 /// Pairs of neighbouring pixels from which on two regions touch.
 const TOUCH: usize = 6;
 

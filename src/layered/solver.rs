@@ -3,9 +3,9 @@
 //! ```text
 //! first scale   planar rounds   fit a plane to each region, label           until labels stand still, 6 at most
 //!               search          candidate motions, models, surfaces, label  once
-//! every scale   rigid passes    estimate T, ω, ρ; ρ alone; label            until labels stand still, 4 at most
-//! finest scale  select          models once more, in the first pass
-//!               refine          depth pixel by pixel where it has steps     once
+//! every scale   rigid passes    estimate T, ω, ρ; ρ alone; label            until labels stand still, 2 at most
+//! second scale  select          models once more, in the second pass
+//! finest scale  refine          depth pixel by pixel where it has steps     once
 //! ```
 //!
 //! σ is measured at the start of a scale and held, so that energies compare within it. A pass that raises the energy is
@@ -29,8 +29,8 @@ use crate::window::Window;
 
 /// Planar rounds at most.
 pub(super) const PLANAR_ROUNDS: usize = 6;
-/// Rigid passes of a scale at least and at most.
-pub(super) const PASSES: [usize; 2] = [2, 4];
+/// Rigid passes of a scale at most.
+pub(super) const PASSES: usize = 2;
 /// The first scale is the finest whose shorter side has no more pixels than this.
 const FIRST_SIDE: usize = 150;
 /// Pixels between control points on the scale after the first.
@@ -276,10 +276,10 @@ impl Layered {
             }
             Phase::Planar(_) => (Phase::Search, Next::Another),
             Phase::Search => (Phase::Rigid(0), Next::Another),
+            // Models are compared when the scale has a picture, and by another energy.
+            Phase::Rigid(0) if self.selects_in(1) => (Phase::Rigid(1), Next::Another),
             Phase::Rigid(done) => {
-                let [least, most] = if self.warm { [1, 2] } else { PASSES };
-                let enough = done + 1 >= least && (still || alone);
-                if !self.rejected && !enough && done + 1 < most {
+                if !self.rejected && !still && !alone && done + 1 < PASSES {
                     (Phase::Rigid(done + 1), Next::Again)
                 } else if self.level > 0 {
                     self.refine_scale();
