@@ -13,6 +13,8 @@ use crate::solver::Expected;
 
 /// What flow is off by on the mean where surfaces fit, in pixels of the scale at work.
 const FLOW_ERROR: f64 = 0.05;
+/// Squared slope that noise alone has, in σ² of the residual: a third on smoothed frames, half as much again by chance.
+const NOISE: f32 = 0.5;
 /// Confidence of a region that two motions explain equally well, at most.
 const AMBIGUOUS: f32 = 0.5;
 
@@ -34,7 +36,7 @@ impl Layered {
             v: Grid::new(width, height, 0.0),
         };
         let mut depth = Grid::new(width, height, 1.0f32);
-        let mut slope = Grid::new(width, height, 0.0f32);
+        let mut squares = Grid::new(width, height, 0.0f32);
         let mut occluded = Grid::new(width, height, 0u8);
         let [nearest, farthest] = NEAREST_FARTHEST;
         let f = camera.focal as f32;
@@ -63,11 +65,13 @@ impl Layered {
                     let t = region.state.translation.as_vec3().to_array();
                     let (px, py) = ((to_x - camera.cx as f32) / f, (to_y - camera.cy as f32) / f);
                     let [gx, gy] = [&finest.gradient[0], &finest.gradient[1]].map(|g| g[at]);
-                    slope[at] = f * (gx * (t[0] - px * t[2]) + gy * (t[1] - py * t[2]));
+                    let (mx, my) = (f * (t[0] - px * t[2]), f * (t[1] - py * t[2]));
+                    let steep = NOISE * self.sigma * self.sigma * (mx * mx + my * my);
+                    squares[at] = (gx * mx + gy * my).powi(2) - steep;
                 }
             }
         }
-        let mut confidence = confidence(&slope, f64::from(self.sigma));
+        let mut confidence = confidence(&squares, f64::from(self.sigma));
         for (i, c) in confidence.data_mut().iter_mut().enumerate() {
             let region = &self.regions[usize::from(labels.data()[i])];
             if occluded.data()[i] != 0 || !region.model.translates() || !region.rigid || planar {
@@ -140,7 +144,8 @@ mod tests {
 
     #[test]
     fn confidence_grows_with_what_shows() {
-        let of = |slope: f32, sigma: f64| confidence(&Grid::new(31, 31, slope), sigma)[(15, 15)];
+        let of =
+            |slope: f32, sigma: f64| confidence(&Grid::new(31, 31, slope * slope), sigma)[(15, 15)];
         assert_eq!(of(0.0, 1.0), 0.0);
         let mut before = 0.0;
         for slope in [0.1, 0.3, 1.0, 3.0, 10.0] {
@@ -161,8 +166,8 @@ mod tests {
 
     #[test]
     fn confidence_reaches_as_far_as_smoothing_does() {
-        let slope = Grid::from_fn(60, 20, |x, _| if x < 30 { 4.0 } else { 0.0 });
-        let c = confidence(&slope, 1.0);
+        let squares = Grid::from_fn(60, 20, |x, _| if x < 30 { 16.0 } else { 0.0 });
+        let c = confidence(&squares, 1.0);
         assert!(c[(10, 10)] > 0.9 && c[(29, 10)] > 0.5);
         assert_eq!(c[(50, 10)], 0.0);
         for x in 0..59 {

@@ -137,7 +137,7 @@ impl Paper {
             .along_depth(&self.labels, &mut slope, &mut offset);
         // What shows beside a region that does not move must not spread into it, nor the other way round.
         hide(&mut slope);
-        let mut found = confidence(&slope, noise.now);
+        let mut found = confidence(&slope.map(|a| a * a), noise.now);
         hide(&mut found);
         found
     }

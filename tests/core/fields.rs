@@ -29,6 +29,16 @@ fn a_woven_frame_is_told_from_whole_ones() {
 }
 
 #[test]
+fn stripes_and_lettering_in_a_whole_frame_are_no_combs() {
+    // A wave of less than four rows: shifted by half a period, a row lies between its neighbours.
+    for slant in [0.5f32, 1.0, 1.5] {
+        let stripes = |x, y| 120.0 + 60.0 * (slant * x as f32 + 2.2 * y as f32).sin();
+        let frame = Frame::from_grey(Grid::from_fn(160, 120, stripes)).unwrap();
+        assert!(!frame.interlaced(), "{slant}");
+    }
+}
+
+#[test]
 fn fields_show_the_two_moments_at_the_same_height() {
     // A slope is the same in both fields, if their rows are where they are said to be.
     let slope = Grid::from_fn(64, 64, |x, y| (x + 2 * y) as f32);

@@ -7,6 +7,7 @@ mod best;
 mod detail;
 mod extremes;
 mod films;
+mod light;
 mod passes;
 mod refused;
 mod states;
