@@ -1,14 +1,14 @@
 //! Interlaced frames: even rows show one moment, odd rows another, a fiftieth or sixtieth of a second later.
 //!
 //! Where such a frame shows something that moves, a row is not what lies between its neighbours, but what lies
-//! between them a few columns away: over the odd rows of a block of 16×16 pixels, and over its even ones, the d that makes
+//! between them d columns away, d being of opposite sign for even and for odd rows. So a block of 16×16 pixels is combed if in
 //!
 //! ```text
 //! E(d) = Σ [ I(x, y) − ½ I(x + d, y − 1) − ½ I(x + d, y + 1) ]²
 //! ```
 //!
-//! least is not 0. Motion shifts odd rows to one side and even rows to the other. Lettering and stripes may look shifted in
-//! whole frames as well, but then to either side alike: such blocks count against the others. Each field makes a frame of half the size, whose pixels
+//! summed over its odd and over its even rows, the least of Eodd(d) + Eeven(−d) is well below that of Eodd(d) + Eeven(d). In
+//! whole frames lettering and stripes may look shifted too, but then alike in all rows. Each field makes a frame of half the size, whose pixels
 //! are square and whose rows lie at the same height in both:
 //!
 //! ```text
@@ -25,12 +25,11 @@ use crate::grid::Grid;
 const HALF: usize = 8;
 /// Columns by which a row is tried to be shifted.
 const SHIFTS: usize = 6;
-/// Least E(d) over E(0) below which rows are shifted.
-const SHIFTED: f32 = 0.8;
+/// Share of what a shift alike in all rows leaves below which opposite shifts tell a comb.
+const COMBED: f32 = 0.8;
 /// E(0) for a pixel, grey levels², below which a block is not looked at.
 const FLAT: f32 = 4.0;
-/// By how many more blocks are combed than shifted to one side in an interlaced frame: in shares of those looked at, and
-/// their number.
+/// Combed blocks of an interlaced frame: in shares of those looked at, and their number.
 const LEAST: (f64, usize) = (0.015, 3);
 /// Rows of an interlaced frame at most.
 const MOST_ROWS: usize = 1200;
@@ -48,18 +47,21 @@ impl Frame {
             let rows = |first| errors(grey, (SHIFTS + i * HALF, 1 + j * HALF + first));
             [rows(0), rows(1)]
         });
-        let (mut textured, mut combed, mut alike) = (0usize, 0, 0);
-        for at in (1..down).flat_map(|j| (1..across).map(move |i| (i, j))) {
-            let [Some(odd), Some(even)] = [0, 1].map(|rows| shift(&cells, at, rows)) else {
+        let (mut textured, mut combed) = (0usize, 0usize);
+        for (i, j) in (1..down).flat_map(|j| (1..across).map(move |i| (i, j))) {
+            let four = [(i, j), (i - 1, j), (i, j - 1), (i - 1, j - 1)].map(|at| cells[at]);
+            let sum = |rows: usize, d: usize| four.iter().map(|cell| cell[rows][d]).sum::<f32>();
+            if (0..2).any(|rows| sum(rows, SHIFTS) < FLAT * (2 * HALF * HALF) as f32) {
                 continue;
+            }
+            let least = |even: &dyn Fn(usize) -> usize| {
+                let each = (0..=2 * SHIFTS).map(|d| sum(0, d) + sum(1, even(d)));
+                each.fold(f32::INFINITY, f32::min)
             };
             textured += 1;
-            if odd != 0 && even != 0 {
-                combed += usize::from((odd + even).abs() <= 1);
-                alike += usize::from((odd - even).abs() <= 1);
-            }
+            combed += usize::from(least(&|d| 2 * SHIFTS - d) < COMBED * least(&|d| d));
         }
-        combed >= alike + LEAST.1 && (combed - alike) as f64 >= LEAST.0 * textured as f64
+        combed >= LEAST.1 && combed as f64 >= LEAST.0 * textured as f64
     }
 
     /// The two moments of an interlaced frame, even rows first, as frames of half its size, seen with half its f.
@@ -111,25 +113,4 @@ fn errors(grey: &Grid<f32>, (left, top): (usize, usize)) -> [f32; 2 * SHIFTS + 1
         }
     }
     errors
-}
-
-/// By how many columns the odd (0) or even (1) rows of the block whose last cell is (i, j) are shifted; `None` where it
-/// is flat.
-fn shift(
-    cells: &Grid<[[f32; 2 * SHIFTS + 1]; 2]>,
-    (i, j): (usize, usize),
-    rows: usize,
-) -> Option<i32> {
-    let four = [(i, j), (i - 1, j), (i, j - 1), (i - 1, j - 1)].map(|at| &cells[at][rows]);
-    let sum = |d: usize| four.iter().map(|errors| errors[d]).sum::<f32>();
-    let still = sum(SHIFTS);
-    let least = (0..=2 * SHIFTS).min_by(|&a, &b| sum(a).total_cmp(&sum(b)))?;
-    let shifted = sum(least) < SHIFTED * still;
-    (still > FLAT * (2 * HALF * HALF) as f32).then(|| {
-        if shifted {
-            least as i32 - SHIFTS as i32
-        } else {
-            0
-        }
-    })
 }

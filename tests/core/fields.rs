@@ -30,7 +30,7 @@ fn a_woven_frame_is_told_from_whole_ones() {
 
 #[test]
 fn stripes_and_lettering_in_a_whole_frame_are_no_combs() {
-    // A wave of less than four rows: shifted by half a period, a row lies between its neighbours.
+    // A wave of less than four rows: shifted by half a wave, a row lies between its neighbours.
     for slant in [0.5f32, 1.0, 1.5] {
         let stripes = |x, y| 120.0 + 60.0 * (slant * x as f32 + 2.2 * y as f32).sin();
         let frame = Frame::from_grey(Grid::from_fn(160, 120, stripes)).unwrap();
