@@ -52,10 +52,10 @@ export function openExport(): void {
     reason,
     section(
       "Pictures",
-      row(picture.title, "The whole frame at its own size, sRGB.", picture.select, picture.press),
+      row(picture.title, picture.line, picture.select, picture.press),
       row("The stage", stage.line, stage.press),
     ),
-    section("Measurements, at every pixel of the frame", ...MEASURES.map((item) => rowOf(item))),
+    section("Measurements", ...MEASURES.map((item) => rowOf(item))),
     section("Surface", rowOf(SURFACE)),
     section(
       "Film",
@@ -69,7 +69,8 @@ export function openExport(): void {
   );
   const all = fromResult("Everything as one zip", "", () => everything(sheet, given.signal));
   all.classList.add("primary");
-  foot.append(all);
+  const inIt = "All files above, every view, the citations and a README that says what they are.";
+  foot.append(make("p", { class: "note" }, inIt), all);
 
   const unwatch = [
     store.watch(
@@ -144,7 +145,8 @@ function pictures(doing: Doing) {
     );
     press.disabled = list.length === 0;
   };
-  const { view } = store.state;
+  const { view, width, height } = store.state;
+  const whole = `At the frame's size, ${width}×${height} pixels, sRGB; a stereo pair is twice as wide.`;
   const stage = named(
     button(
       "PNG",
@@ -158,7 +160,7 @@ function pictures(doing: Doing) {
   stage.id = "save-view";
   const line = `${viewOf(view).label} as on the screen: turned, zoomed, divided or captioned as it is.`;
   return [
-    { select, title, press, fill },
+    { select, title, press, fill, line: whole },
     { press: stage, line },
   ] as const;
 }
@@ -212,11 +214,7 @@ function citation(
   { id, title, bibtex }: (typeof CITATIONS)[number],
   say: (text: string) => void,
 ): HTMLElement {
-  const text = make(
-    "pre",
-    { id, tabindex: 0, role: "group", "aria-label": `${title}, BibTeX` },
-    bibtex,
-  );
+  const text = make("pre", { id, role: "group", "aria-label": `${title}, BibTeX` }, bibtex);
   const copy = named(
     button("Copy BibTeX", async () => {
       try {

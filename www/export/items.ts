@@ -25,7 +25,7 @@ export const MEASURES: Item[] = [
   },
   {
     title: "Image motion",
-    line: "Middlebury .flo: u to the right and v down, in pixels per frame, at every pixel.",
+    line: "Middlebury .flo: u to the right and v down at every pixel, in pixels per frame.",
     files: [{ name: "flow.flo", label: ".flo" }],
   },
   {
@@ -63,7 +63,7 @@ export function readme(title: string, film: string): string {
   return `${title}, as Relievo found it.
 
 pictures/
-    Views at the frame's size, sRGB.
+    Every view at the frame's size, sRGB; a stereo pair is twice as wide.
 ${listed.join("")}solve.webm
     ${film || "The outlines, pass by pass."}
 cite.bib
