@@ -9,7 +9,8 @@ import { viewer } from "../looking";
 import { drawContours } from "../stage/outline";
 import { store, type State } from "../store";
 import { placeOf } from "../timeline/going";
-import { standingAt, type Line } from "../timeline/line";
+import { endOf, standingAt, type Line, type Timeline } from "../timeline/line";
+import { stretchesOf } from "../timeline/chart";
 import type { Pane } from "../stage/place";
 
 /** A small frame is shown at a whole multiple of its size, up to about this width. */
@@ -89,7 +90,7 @@ export async function film(
     }
     context.drawImage(frames[0], 0, 0, canvas.width, pane.cell.height);
     drawContours(context, pane, drawn.contours, state.catalogues?.colours ?? []);
-    drawLine(context, pane, timeline.lines[line]!, at, timeline.first);
+    drawLine(context, pane, timeline, timeline.lines[line]!, at);
     await track.add(time, seconds);
     time += seconds;
   }
@@ -112,13 +113,13 @@ function layOut(canvas: HTMLCanvasElement, { width, height }: Readonly<State>): 
   return { left: 0, top: 0, scale: canvas.width / width, cell };
 }
 
-/** The line beneath: which pass this is, and the energy up to it. */
+/** The line beneath: which pass this is, and the energy up to it, each stretch that compares at a height of its own. */
 function drawLine(
   context: CanvasRenderingContext2D,
   { cell }: Pane,
-  { energies }: Line,
+  timeline: Timeline,
+  line: Line,
   at: number,
-  first: number,
 ): void {
   const { width } = cell;
   const top = cell.height;
@@ -128,32 +129,33 @@ function drawLine(
   context.fillStyle = "#e8edec";
   context.font = `${Math.round(0.46 * height)}px system-ui, sans-serif`;
   context.textBaseline = "middle";
-  const text = at === first ? "Start" : `Pass ${at} of ${first + energies.length}`;
+  const text = at === timeline.first ? "Start" : `Pass ${at} of ${endOf(timeline, line)}`;
   context.fillText(text, 0.3 * height, top + height / 2);
 
-  // Energies of different sums lie far apart: a line of their logarithms shows all of them.
-  const logs = energies.filter((e) => e > 0).map(Math.log);
-  const [low, high] = [Math.min(...logs), Math.max(...logs)];
   const left = 0.36 * width;
   const right = width - 0.4 * height;
-  const x = (i: number) => left + ((right - left) * (i + 1)) / energies.length;
-  const y = (e: number) =>
-    top + height * (0.82 - (0.64 * (Math.log(e) - low)) / Math.max(1e-9, high - low));
-  const draw = (until: number, colour: string, line: number) => {
-    context.beginPath();
-    for (const [i, e] of energies.slice(0, until).entries()) if (e > 0) context.lineTo(x(i), y(e));
-    context.strokeStyle = colour;
-    context.lineWidth = line * (height / 48);
-    context.stroke();
-  };
-  draw(energies.length, "#55646a", 1.5);
-  draw(at - first, "#4fd0e2", 3);
-  const now = energies[at - first - 1];
-  if (now !== undefined && now > 0) {
-    context.beginPath();
-    context.arc(x(at - first - 1), y(now), 0.1 * height, 0, 2 * Math.PI);
-    context.fillStyle = "#4fd0e2";
-    context.fill();
+  const { first } = timeline;
+  const x = (at: number) => left + ((right - left) * (at - first)) / line.energies.length;
+  const colour = (of: number) => (of <= at ? "#4fd0e2" : "#55646a");
+  for (const { points } of stretchesOf(timeline, line)) {
+    const energies = points.map(({ energy }) => energy).filter(Number.isFinite);
+    const [least, most] = [Math.min(...energies), Math.max(...energies)];
+    const y = (energy: number) =>
+      top + height * (most > least ? 0.8 - (0.6 * (energy - least)) / (most - least) : 0.5);
+    for (const [i, point] of points.entries()) {
+      if (!Number.isFinite(point.energy)) continue;
+      const last = points[i - 1];
+      const spot = [x(point.at), y(point.energy)] as const;
+      context.strokeStyle = context.fillStyle = colour(point.at);
+      context.lineWidth = 0.05 * height;
+      context.beginPath();
+      if (last && Number.isFinite(last.energy)) context.moveTo(x(last.at), y(last.energy));
+      context.lineTo(...spot);
+      context.stroke();
+      context.beginPath();
+      context.arc(...spot, (point.at === at ? 0.14 : 0.05) * height, 0, 2 * Math.PI);
+      context.fill();
+    }
   }
   context.fillStyle = "#a4b0b2";
   context.textAlign = "right";
