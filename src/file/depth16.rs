@@ -11,7 +11,7 @@ use crate::grid::Grid;
 /// The least that the median depth becomes: half a level is one part in 4096.
 const MEDIAN: f32 = 2048.0;
 
-/// Levels per unit of depth for [`write`]; 1 where no depth is known.
+/// Levels per unit of depth for [`write()`]; 1 where no depth is known.
 pub fn scale(depth: &Grid<f32>) -> f64 {
     let mut known: Vec<f32> = (depth.data().iter().copied())
         .filter(|z| known(*z))

@@ -17,6 +17,8 @@ use crate::view::Mesh;
 
 /// Opacity of what is of unknown depth.
 const GHOST: f32 = 0.22;
+/// Which of [`Mesh::parts`] has colours of its own.
+const HIDDEN: usize = 1;
 /// How matt surfaces are, 0–1.
 const ROUGHNESS: f32 = 0.92;
 
@@ -62,7 +64,6 @@ pub fn write(mesh: &Mesh, texture: &Grid<[u8; 3]>) -> Result<Vec<u8>, Error> {
         .collect();
     let place = file.numbers(&down, "VEC2", vertices);
 
-    let shared = json!({ "POSITION": position, "NORMAL": normal, "TEXCOORD_0": place });
     let mut primitives = Vec::new();
     let mut rest = mesh.indices.as_slice();
     for (piece, &count) in mesh.parts.iter().enumerate() {
@@ -71,10 +72,11 @@ pub fn write(mesh: &Mesh, texture: &Grid<[u8; 3]>) -> Result<Vec<u8>, Error> {
         if own.is_empty() {
             continue;
         }
-        let mut attributes = shared.clone();
-        if piece == 1 {
-            attributes["COLOR_0"] = json!(file.colours(&mesh.colours, vertices));
-        }
+        let (looks, which) = match piece {
+            HIDDEN => ("COLOR_0", file.colours(&mesh.colours, vertices)),
+            _ => ("TEXCOORD_0", place),
+        };
+        let attributes = json!({ "POSITION": position, "NORMAL": normal, looks: which });
         let bytes: Vec<u8> = own.iter().flat_map(|i| i.to_le_bytes()).collect();
         let indices = file.accessor(&bytes, INDICES, U32, "SCALAR", own.len());
         primitives.push(json!({ "attributes": attributes, "indices": indices, "material": piece }));

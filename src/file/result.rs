@@ -61,7 +61,7 @@ pub const NAMES: [&str; 6] = [
 /// Names and contents of the files of `found`, which moves as `motion` says.
 ///
 /// # Errors
-/// What [`file`] finds.
+/// What [`file()`] finds.
 pub fn write(
     found: &Interpretation,
     motion: &MotionFile,
