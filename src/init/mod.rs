@@ -25,4 +25,4 @@ pub use epipolar::{EpipolarMotion, epipolar_motion};
 pub use focal::{FocalLength, focal_length};
 pub use matches::{Match, matches};
 pub(crate) use outline::outlines;
-pub(crate) use sample::{Carrier, Sample};
+pub(crate) use sample::{Carrier, Sample, Small, small_samples};

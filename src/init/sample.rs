@@ -28,6 +28,8 @@ use crate::working::factor;
 const PIXELS: usize = 352 * 288;
 /// m: what displacements are off beside noise, in pixels.
 const MODEL_ERROR: f64 = 0.12;
+/// χ² below which a motion explains a match.
+const EXPLAINED: f64 = 9.0;
 /// How far behind infinity, in pixels, a point may seem to be: R is never exact.
 const BEHIND: f64 = 0.3;
 
@@ -151,6 +153,12 @@ impl Carrier {
             translation: motion.translation.normalize_or_zero(),
             focal: camera.focal,
         }
+    }
+
+    /// Share of `samples` with χ² below [`EXPLAINED`].
+    pub fn share_explained(&self, samples: &[Sample]) -> f64 {
+        let near = samples.iter().filter(|s| self.misfit(s) < EXPLAINED);
+        near.count() as f64 / samples.len().max(1) as f64
     }
 
     /// χ² of a match.

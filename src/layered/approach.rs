@@ -15,13 +15,15 @@ use crate::options::Options;
 use crate::solver::{Approach, Expected, Next, RegionState, Stage, Weights};
 
 impl Layered {
-    /// The scale on which motion models are compared once more.
-    fn selects(&self) -> usize {
-        if self.warm {
-            self.first
-        } else {
-            self.first.saturating_sub(1)
-        }
+    /// Whether motion models are compared once more in the pass of this scale that follows so many: the second on the second
+    /// scale. Without a curve the first, as there are no labels to find; and on the first scale when a film goes on.
+    pub(super) fn selects_in(&self, done: usize) -> bool {
+        let (scale, pass) = match (self.warm, self.regions.len()) {
+            (true, _) => (self.first, 0),
+            (false, 1) => (self.first.saturating_sub(1), 0),
+            (false, _) => (self.first.saturating_sub(1), 1),
+        };
+        self.level == scale && done == pass
     }
 }
 
@@ -35,7 +37,7 @@ impl Approach for Layered {
                     self.measure_sigma(options);
                 }
                 self.estimate(options);
-                if done == 0 && self.level == self.selects() {
+                if self.selects_in(done) {
                     self.select_models(options);
                 }
             }
@@ -148,7 +150,7 @@ impl Approach for Layered {
         match self.phase {
             Phase::Planar(_) => Stage::Planes,
             Phase::Search => Stage::Search,
-            Phase::Rigid(0) if self.level == self.selects() => Stage::Selection,
+            Phase::Rigid(done) if self.selects_in(done) => Stage::Selection,
             Phase::Rigid(_) => Stage::Surfaces,
             Phase::Refine | Phase::Done => Stage::Steps,
         }

@@ -69,7 +69,12 @@ impl Layered {
         // Not in each other's light: what one frame alone shows is taken for a change of light, which turns depth.
         let pair = self.pair.clone();
         let frames = [pair.first(), pair.second()].map(|frame| &*frame.grey);
-        let all = matches(frames[0], frames[1]);
+        let small = self.small();
+        let all: Vec<Match> = if small.size == [frames[0].width(), frames[0].height()] {
+            small.samples.iter().map(|s| s.matched).collect()
+        } else {
+            matches(frames[0], frames[1])
+        };
         let camera = self.scales[0].camera;
         let smooth = frames.map(|frame| blur(frame, self.smoothing));
         let scale = Scale::new(smooth, frames.map(Grid::clone), camera);

@@ -17,11 +17,12 @@ use glam::DVec3;
 
 use super::estimate::{Free, NormalEquations, Outcome, State, Support, turn};
 use super::models::{Problem, free};
+use super::rigidity::{FEWEST, Owned};
 use super::solver::Layered;
 use super::stages::STIFFNESS;
-use crate::camera::RigidMotion;
+use crate::camera::{Camera, RigidMotion};
 use crate::grid::Grid;
-use crate::init::{Match, epipolar_motion, matches};
+use crate::init::{Carrier, Sample, epipolar_motion};
 use crate::motion_model::MotionModel;
 use crate::options::Options;
 use crate::window::Window;
@@ -39,6 +40,8 @@ const FAR: f64 = 6.0;
 const DEPTH_STEPS: usize = 6;
 /// How many times nearer than the background, or farther, a part of the scene may be on the mean.
 const NEARER: f64 = 4.5;
+/// Share of a region's matches that the motion of a scene explains, or it is none.
+const POSSIBLE: f64 = 0.3;
 /// Pairs of neighbouring pixels from which on two regions touch.
 const TOUCH: usize = 6;
 
@@ -62,8 +65,22 @@ impl Layered {
 
     /// Notes what may be one, and leaves it as it was drawn.
     pub(super) fn note_parts(&mut self, options: &Options) {
+        self.regions.iter_mut().for_each(|r| r.part_of = None);
         let count = self.regions.len();
-        if let Some((whole, part)) = self.most_alike(&mut vec![None; count * count], options) {
+        let owned = self.owned_matches();
+        // Most bodies move in a way that the others' motions do not explain.
+        let (unlike, camera) = (Some(f64::INFINITY), &owned.camera);
+        let mut lost = vec![None; count * count];
+        for (a, b) in (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b))) {
+            let explains = |a: usize, b: usize| {
+                let motion = self.regions[a].state.motion();
+                may_explain(&motion, &owned.samples[b], camera)
+            };
+            if !explains(a, b) && (a == 0 || !explains(b, a)) {
+                lost[a * count + b] = unlike;
+            }
+        }
+        if let Some((whole, part)) = self.most_alike(&mut lost, options) {
             self.regions[part].part_of = Some(whole);
         }
         if self.regions[0].model.translates() {
@@ -78,10 +95,9 @@ impl Layered {
         if self.regions.len() < 2 {
             return Vec::new();
         }
-        let frames = [&self.pair.first().grey, &self.pair.second().grey];
-        let all = matches(frames[0], frames[1]);
+        let owned = self.owned_matches();
         (1..self.regions.len())
-            .filter(|&k| self.regions[k].window.is_some() && self.is_scenery(k, &all, options))
+            .filter(|&k| self.regions[k].window.is_some() && self.is_scenery(k, &owned, options))
             .collect()
     }
 
@@ -143,28 +159,24 @@ impl Layered {
     }
 
     /// Whether region k and the background are one scene.
-    fn is_scenery(&mut self, k: usize, all: &[Match], options: &Options) -> bool {
-        let (labels, level) = (&self.labels, self.level);
-        let of = |m: &Match| {
-            let at = m.at.map(|v| v as usize >> level);
-            labels[(
-                at[0].min(labels.width() - 1),
-                at[1].min(labels.height() - 1),
-            )]
-        };
-        let both: Vec<Match> = (all.iter().copied())
-            .filter(|m| [0, k].contains(&usize::from(of(m))))
-            .collect();
-        let found = epipolar_motion(&both, &self.scales[0].camera);
-        let found = found.filter(|f| f.model == MotionModel::Full);
-        let own = self.regions[0].state.motion();
-        let motions = [Some(own), found.map(|f| f.motion)];
+    fn is_scenery(&mut self, k: usize, owned: &Owned, options: &Options) -> bool {
+        let (camera, own) = (&owned.camera, &owned.samples[k]);
+        let both = owned.samples[0].iter().chain(own).map(|s| s.matched);
+        let found = epipolar_motion(&both.collect::<Vec<_>>(), camera)
+            .filter(|f| f.model == MotionModel::Full)
+            .map(|f| f.motion);
+        let possible = |motion: &RigidMotion| may_explain(motion, own, camera);
+        let motions = [Some(self.regions[0].state.motion()), found];
+        let mut motions = motions.into_iter().flatten().filter(possible).peekable();
+        if motions.peek().is_none() {
+            return false;
+        }
         let apart: f64 = [0, k].map(|k| self.cost_of(k, options)).iter().sum();
         let labels = self.labels.clone();
         let variance = f64::from(self.sigma * self.sigma);
         let limit = (SCENERY.0 * variance).max(SCENERY.1 * apart);
         let mut least = f64::INFINITY;
-        for motion in motions.into_iter().flatten() {
+        for motion in motions {
             if motion.translation == DVec3::ZERO {
                 continue;
             }
@@ -280,6 +292,11 @@ impl Layered {
         self.regions[into].outcome = outcome;
         self.find_windows();
     }
+}
+
+/// Whether matches leave open that they move so, at whatever depth.
+fn may_explain(motion: &RigidMotion, matches: &[Sample], camera: &Camera) -> bool {
+    matches.len() < FEWEST || Carrier::new(motion, camera).share_explained(matches) >= POSSIBLE
 }
 
 /// Labels with those of `from` made `into`.

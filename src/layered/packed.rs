@@ -76,7 +76,7 @@ impl Layered {
 
     /// Takes a state over, of as many regions as there are. On an error all stays.
     pub(super) fn read(&mut self, from: &mut Unpacker) -> Result<(), Error> {
-        let (phase, done) = (from.byte()?, from.whole(PLANAR_ROUNDS.max(PASSES[1]))?);
+        let (phase, done) = (from.byte()?, from.whole(PLANAR_ROUNDS.max(PASSES))?);
         let phase = match phase {
             0 => Phase::Planar(done),
             1 => Phase::Search,

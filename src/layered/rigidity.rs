@@ -1,72 +1,76 @@
 //! Whether a rigid motion fits a region at all: a judgement on matches, which know nothing of depth.
 //!
 //! What a rigid motion carries lies on lines that it lays through the second frame, whatever its depth. A region whose
-//! matches, but for a few, do not (χ² ≥ [`UNEXPLAINED`]), neither under its own motion nor under the one that they agree on
-//! best, is no rigid body: it bends, or more than one thing moves there. Matches whose windows reach beyond the region do
-//! not count. Frames of the first scale are fine enough.
+//! matches, but for a few, do not, neither under its own motion nor under the one that they agree on best, is no rigid body:
+//! it bends, or more than one thing moves there. Matches whose windows reach beyond the region do not count.
+
+use std::rc::Rc;
 
 use super::solver::Layered;
-use crate::camera::RigidMotion;
-use crate::frames::halved;
-use crate::init::{Carrier, Match, Sample, epipolar_motion, matches};
+use crate::camera::{Camera, RigidMotion};
+use crate::init::{Carrier, Match, Sample, Small, epipolar_motion, small_samples};
 
-/// χ² above which a match is not explained.
-const UNEXPLAINED: f64 = 9.0;
 /// Share of a region's matches that a rigid motion explains.
 const RIGID: f64 = 0.75;
 /// Matches below which nothing is said.
-const FEWEST: usize = 40;
+pub(super) const FEWEST: usize = 40;
 /// Half the side of a match's window, pixels.
 const HALF: usize = 4;
 
+/// The matches of a pair, by the region that owns them.
+pub(super) struct Owned {
+    pub camera: Camera,
+    /// Matches whose windows lie in a region, of each.
+    pub samples: Vec<Vec<Sample>>,
+}
+
 impl Layered {
-    /// Says of each region whether a rigid motion fits it.
-    pub(super) fn judge_rigidity(&mut self) {
-        let level = self.first;
-        let scale = &self.scales[level];
-        let second = &self.pair.second().grey;
-        let mut other = (**second).clone();
-        for _ in 0..level {
-            other = halved(&other);
-        }
-        let all = matches(&scale.plain, &other);
+    /// Matches between the frames, halved where they are large.
+    pub(super) fn small(&mut self) -> Rc<Small> {
+        let camera = &self.scales[0].camera;
+        let small = || Rc::new(small_samples(&self.pair, camera));
+        self.small.get_or_insert_with(small).clone()
+    }
+
+    /// Which region owns which match, by the labels as they are.
+    pub(super) fn owned_matches(&mut self) -> Owned {
+        let small = self.small();
+        let (labels, [width, height]) = (&self.labels, small.size);
         let label = |x: usize, y: usize| {
-            let place = |v: usize, most: usize| ((v << level) >> self.level).min(most - 1);
-            self.labels[(
-                place(x, self.labels.width()),
-                place(y, self.labels.height()),
+            let place = |v: usize, from: usize, to: usize| (v * to / from).min(to - 1);
+            labels[(
+                place(x, width, labels.width()),
+                place(y, height, labels.height()),
             )]
         };
-        let owner = |m: &Match| {
-            let [x, y] = m.at.map(|v| v as usize);
-            let (xs, ys) = (
-                [x.saturating_sub(HALF), x + HALF],
-                [y.saturating_sub(HALF), y + HALF],
-            );
+        let mut samples = vec![Vec::new(); self.regions.len()];
+        for sample in &small.samples {
+            let [x, y] = sample.matched.at.map(|v| v as usize);
             let own = label(x, y);
-            let inside = xs.iter().all(|&x| ys.iter().all(|&y| label(x, y) == own));
-            inside.then_some(usize::from(own))
-        };
-        let owners: Vec<Option<usize>> = all.iter().map(owner).collect();
-        for (k, region) in self.regions.iter_mut().enumerate() {
-            let own: Vec<Match> = (all.iter().zip(&owners))
-                .filter(|(_, o)| **o == Some(k))
-                .map(|(m, _)| *m)
-                .collect();
-            region.rigid = true;
-            if own.len() < FEWEST {
-                continue;
+            let (left, top) = (x.saturating_sub(HALF), y.saturating_sub(HALF));
+            let mut around = (top..=y + HALF).flat_map(|y| (left..=x + HALF).map(move |x| (x, y)));
+            if around.all(|(x, y)| label(x, y) == own) {
+                samples[usize::from(own)].push(*sample);
             }
-            let camera = &scale.camera;
-            let samples: Vec<Sample> = own.iter().map(|m| Sample::new(*m, camera)).collect();
-            let explained = |motion: &RigidMotion| {
-                let carrier = Carrier::new(motion, camera);
-                let near = samples.iter().filter(|s| carrier.misfit(s) < UNEXPLAINED);
-                near.count() as f64 / samples.len() as f64
+        }
+        Owned {
+            camera: small.camera,
+            samples,
+        }
+    }
+
+    /// Says of each region whether a rigid motion fits it.
+    pub(super) fn judge_rigidity(&mut self) {
+        let Owned { camera, samples } = self.owned_matches();
+        for (region, own) in self.regions.iter_mut().zip(&samples) {
+            region.rigid = own.len() < FEWEST || {
+                let explained =
+                    |motion: &RigidMotion| Carrier::new(motion, &camera).share_explained(own);
+                let matches: Vec<Match> = own.iter().map(|s| s.matched).collect();
+                explained(&region.state.motion()) >= RIGID
+                    || epipolar_motion(&matches, &camera)
+                        .is_some_and(|found| explained(&found.motion) >= RIGID)
             };
-            let share = explained(&region.state.motion());
-            let best = epipolar_motion(&own, camera).map_or(0.0, |found| explained(&found.motion));
-            region.rigid = share.max(best) >= RIGID;
         }
     }
 }

@@ -3,9 +3,9 @@
 //! ```text
 //! first scale   planar rounds   fit a plane to each region, label           until labels stand still, 6 at most
 //!               search          candidate motions, models, surfaces, label  once
-//! every scale   rigid passes    estimate T, ω, ρ; ρ alone; label            until labels stand still, 4 at most
-//! finest scale  select          models once more, in the first pass
-//!               refine          depth pixel by pixel where it has steps     once
+//! every scale   rigid passes    estimate T, ω, ρ; ρ alone; label            until labels stand still, 2 at most
+//! second scale  select          models once more, in the second pass
+//! finest scale  refine          depth pixel by pixel where it has steps     once
 //! ```
 //!
 //! σ is measured at the start of a scale and held, so that energies compare within it. A pass that raises the energy is
@@ -22,14 +22,15 @@ use crate::curves;
 use crate::energy::Energy;
 use crate::frames::{FramePair, Lighting};
 use crate::grid::Grid;
+use crate::init::Small;
 use crate::options::Options;
 use crate::solver::{Approach, Next, Weights};
 use crate::window::Window;
 
 /// Planar rounds at most.
 pub(super) const PLANAR_ROUNDS: usize = 6;
-/// Rigid passes of a scale at least and at most.
-pub(super) const PASSES: [usize; 2] = [2, 4];
+/// Rigid passes of a scale at most.
+pub(super) const PASSES: usize = 2;
 /// The first scale is the finest whose shorter side has no more pixels than this.
 const FIRST_SIDE: usize = 150;
 /// Pixels between control points on the scale after the first.
@@ -84,6 +85,8 @@ pub(crate) struct Layered {
     pub(super) before: Option<Before>,
     /// Whether the last pass was taken back.
     pub(super) rejected: bool,
+    /// Matches between the frames, once somebody has asked for them.
+    pub(super) small: Option<Rc<Small>>,
     /// Regions that want depth pixel by pixel, when that is due.
     pub(super) unexplained: Vec<usize>,
 }
@@ -123,6 +126,7 @@ impl Layered {
             weights: Weights::default(),
             before: None,
             rejected: false,
+            small: None,
             unexplained: Vec::new(),
             scales,
         };
@@ -252,7 +256,8 @@ impl Layered {
         }
     }
 
-    fn finished(&mut self) -> (Phase, Next) {
+    fn finished(&mut self, options: &Options) -> (Phase, Next) {
+        self.note_parts(options);
         self.judge_rigidity();
         (Phase::Done, Next::Done)
     }
@@ -270,14 +275,11 @@ impl Layered {
                 (Phase::Planar(done + 1), next)
             }
             Phase::Planar(_) => (Phase::Search, Next::Another),
-            Phase::Search => {
-                self.note_parts(options);
-                (Phase::Rigid(0), Next::Another)
-            }
+            Phase::Search => (Phase::Rigid(0), Next::Another),
+            // Models are compared when the scale has a picture, and by another energy.
+            Phase::Rigid(0) if self.selects_in(1) => (Phase::Rigid(1), Next::Another),
             Phase::Rigid(done) => {
-                let [least, most] = if self.warm { [1, 2] } else { PASSES };
-                let enough = done + 1 >= least && (still || alone);
-                if !self.rejected && !enough && done + 1 < most {
+                if !self.rejected && !still && !alone && done + 1 < PASSES {
                     (Phase::Rigid(done + 1), Next::Again)
                 } else if self.level > 0 {
                     self.refine_scale();
@@ -285,10 +287,10 @@ impl Layered {
                 } else if options.discontinuities && self.find_unexplained() {
                     (Phase::Refine, Next::Another)
                 } else {
-                    self.finished()
+                    self.finished(options)
                 }
             }
-            Phase::Refine | Phase::Done => self.finished(),
+            Phase::Refine | Phase::Done => self.finished(options),
         }
     }
 }

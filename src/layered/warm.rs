@@ -49,6 +49,7 @@ impl Layered {
         let camera = self.scales[0].camera;
         self.scales = pyramid(&pair, camera, self.smoothing, self.lighting);
         self.pair = pair;
+        self.small = None;
         let known = !matches!(self.phase, Phase::Planar(_) | Phase::Search);
         self.level = self.first;
         self.put_labels(&labels);

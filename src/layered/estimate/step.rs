@@ -24,6 +24,8 @@ use crate::linalg::{Banded, solve};
 
 /// Longest δT in a step, as a share of |T|.
 const LONGEST: f64 = 0.5;
+/// A step that lowers E by less than so many σ² is the last one.
+const ENOUGH: f64 = 1.0;
 
 /// What may change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,7 +90,11 @@ impl Estimator {
                 equations.gather(problem, state);
                 break;
             }
+            let gain = outcome.energy - after.energy;
             outcome = after;
+            if gain < ENOUGH * f64::from(sigma * sigma) {
+                break;
+            }
         }
         outcome
     }
