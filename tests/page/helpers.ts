@@ -5,7 +5,7 @@ import { test as base, expect, type Page } from "@playwright/test";
 import type { State } from "../../www/store";
 
 /** The machine may be slow and shared: wait for what must happen, not for how fast. */
-export const PATIENCE = Number(process.env["RELIEVO_PATIENCE"] ?? 30_000);
+export const PATIENCE = Number(process.env["RELIEVO_PATIENCE"] ?? 60_000);
 
 export const test = base.extend<{ opened: Page; patient: void }>({
   patient: [

@@ -193,7 +193,8 @@ fn nothing_is_sure_of_a_mirror_image_through_a_long_lens() {
     mirror_images(800.0);
 }
 
-/// Small regions of random scenes hardly show their relief: at most one of forty is shown as certain and worse than flat.
+/// Small regions of random scenes hardly show their relief: at most one of forty is shown as certain and clearly worse than
+/// flat.
 #[cfg(not(target_arch = "wasm32"))]
 #[test]
 fn little_is_sure_of_what_is_worse_than_flat() {
@@ -218,7 +219,7 @@ fn little_is_sure_of_what_is_worse_than_flat() {
             own.for_each(|(_, c)| (sure, all) = (sure + usize::from(*c > 0.5), all + 1));
             if let (Some(own), Some(flat)) = (scores.depth_error[k], scores.flat_depth_error[k]) {
                 known += 1;
-                if own >= flat && 2 * sure >= all {
+                if own >= 1.1 * flat && 2 * sure >= all {
                     wrong.push(format!("{seed}, {k}: {own}, flat {flat}"));
                 }
             }

@@ -33,7 +33,10 @@ fn the_following_pair_takes_fewer_passes_and_is_found_as_well() {
         let found = run(&mut solver);
         assert_eq!(solver.status(), Status::Converged);
         let second = solver.iterations() - first;
-        assert!(2 * second <= first, "{name}: {first} passes, then {second}");
+        assert!(
+            3 * second <= 2 * first,
+            "{name}: {first} passes, then {second}"
+        );
         whole(&found, film.truths[1].regions());
         let scores = compare(&found, &film.truths[1]).unwrap();
         let (wrong, aee) = (scores.labels_wrong, scores.aee.unwrap());
