@@ -11,7 +11,7 @@ use crate::interpretation::{Flow, Interpretation, NEAREST_FARTHEST};
 use crate::options::Options;
 use crate::solver::Expected;
 
-/// What flow is off by on the mean, in pixels of the scale at work.
+/// What flow is off by on the mean where surfaces fit, in pixels of the scale at work.
 const FLOW_ERROR: f64 = 0.05;
 /// Confidence of a region that two motions explain equally well, at most.
 const AMBIGUOUS: f32 = 0.5;
@@ -52,10 +52,7 @@ impl Layered {
                     (flow.u[at], flow.v[at]) = (u * f, v * f);
                     continue;
                 }
-                let rho = match &region.dense {
-                    Some(dense) => dense[at],
-                    None => region.state.surface.at(x as f32, y as f32),
-                };
+                let rho = region.rho(x, y);
                 let [to_x, to_y] = views[k].target(x, y, rho);
                 (flow.u[at], flow.v[at]) = (to_x - x as f32, to_y - y as f32);
                 depth[at] = rho.max(farthest.recip()).recip().max(nearest);
@@ -119,7 +116,7 @@ impl Layered {
             .collect()
     }
 
-    /// How good labels and flow are, judged by the scale at work.
+    /// How good labels and flow are, judged by the scale at work and, in the end, by matches.
     pub(super) fn expected_now(&self) -> Option<Expected> {
         if matches!(self.phase, Phase::Planar(_) | Phase::Search) {
             return None;
@@ -130,7 +127,7 @@ impl Layered {
             .filter(|pair| pair[0] != pair[1])
             .count();
         Some(Expected {
-            flow: FLOW_ERROR * f64::from(1u32 << self.level),
+            flow: FLOW_ERROR * f64::from(1u32 << self.level) + self.far,
             // Of the two pixels beside an outline one has the wrong label.
             labels: beside as f64 / labels.len() as f64,
         })

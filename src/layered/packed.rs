@@ -43,6 +43,7 @@ impl Layered {
         to.flag(self.before.is_some());
         to.single(self.sigma);
         to.single(self.label_sigma);
+        to.float(self.far);
         let Energy {
             data,
             smoothness,
@@ -62,6 +63,8 @@ impl Layered {
             }
             to.flag(region.ambiguous);
             to.flag(region.hides);
+            to.flag(region.rigid);
+            to.whole(region.part_of.map_or(0, |whole| whole + 1));
             write_explanation(region.model, &region.state, to);
             to.whole(region.alternatives.len());
             for (model, state) in &region.alternatives {
@@ -99,6 +102,10 @@ impl Layered {
         if !(sigma > 0.0 && label_sigma > 0.0 && sigma.is_finite() && label_sigma.is_finite()) {
             return Err(from.wrong("its σ is none"));
         }
+        let far = from.float()?;
+        if !(far >= 0.0 && far.is_finite()) {
+            return Err(from.wrong("its error is none"));
+        }
         let [data, smoothness, length] = from.floats()?;
         let [mu, lambda, weights_sigma] = from.floats()?;
         let count = self.regions.len();
@@ -113,14 +120,14 @@ impl Layered {
             .collect::<Result<_, _>>()?;
         let whole = Window::whole(self.pair.width(), self.pair.height());
         let regions: Vec<Region> = (0..count)
-            .map(|_| read_region(&whole, from))
+            .map(|_| read_region(&whole, count, from))
             .collect::<Result<_, _>>()?;
         from.end()?;
         let labels = Grid::from_vec(width, height, labels)?;
         let offered = Grid::from_vec(width, height, offered)?;
 
         (self.phase, self.level) = (phase, level);
-        (self.warm, self.rejected) = (warm, rejected);
+        (self.warm, self.rejected, self.far) = (warm, rejected, far);
         (self.sigma, self.label_sigma) = (sigma, label_sigma);
         self.energy = Energy {
             data,
@@ -188,7 +195,7 @@ fn read_explanation(whole: &Window, from: &mut Unpacker) -> Result<(MotionModel,
     Ok((model, state))
 }
 
-fn read_region(whole: &Window, from: &mut Unpacker) -> Result<Region, Error> {
+fn read_region(whole: &Window, count: usize, from: &mut Unpacker) -> Result<Region, Error> {
     let mut flow = PlanarFlow::default();
     for value in flow.p.iter_mut().chain([&mut flow.sigma]) {
         *value = from.single()?;
@@ -196,7 +203,8 @@ fn read_region(whole: &Window, from: &mut Unpacker) -> Result<Region, Error> {
             return Err(from.wrong("it has a plane that is none"));
         }
     }
-    let (ambiguous, hides) = (from.flag()?, from.flag()?);
+    let (ambiguous, hides, rigid) = (from.flag()?, from.flag()?, from.flag()?);
+    let part_of = from.whole(count)?.checked_sub(1);
     let (model, state) = read_explanation(whole, from)?;
     let alternatives = from.whole(MOST_ALTERNATIVES)?;
     let alternatives = (0..alternatives)
@@ -212,5 +220,6 @@ fn read_region(whole: &Window, from: &mut Unpacker) -> Result<Region, Error> {
     (region.flow, region.state, region.model) = (flow, state, model);
     (region.alternatives, region.dense) = (alternatives, dense);
     (region.ambiguous, region.hides) = (ambiguous, hides);
+    (region.rigid, region.part_of) = (rigid, part_of);
     Ok(region)
 }

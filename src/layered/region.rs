@@ -55,4 +55,12 @@ impl Region {
             hides: false,
         }
     }
+
+    /// ρ at a pixel of the frame.
+    pub fn rho(&self, x: usize, y: usize) -> f32 {
+        match &self.dense {
+            Some(dense) => dense[(x, y)],
+            None => self.state.surface.at(x as f32, y as f32),
+        }
+    }
 }

@@ -87,6 +87,8 @@ pub(crate) struct Layered {
     pub(super) rejected: bool,
     /// Matches between the frames, once somebody has asked for them.
     pub(super) small: Option<Rc<Small>>,
+    /// Mean distance of flow from matches, pixels, where that is more than one; 0 until the end.
+    pub(super) far: f64,
     /// Regions that want depth pixel by pixel, when that is due.
     pub(super) unexplained: Vec<usize>,
 }
@@ -127,6 +129,7 @@ impl Layered {
             before: None,
             rejected: false,
             small: None,
+            far: 0.0,
             unexplained: Vec::new(),
             scales,
         };
@@ -163,6 +166,7 @@ impl Layered {
         self.level = self.first;
         self.phase = Phase::Planar(0);
         self.warm = false;
+        self.far = 0.0;
         let (width, height) = (self.pair.width(), self.pair.height());
         let frame = curves::labels(level_sets, width, height);
         self.put_labels(&frame);
@@ -259,6 +263,7 @@ impl Layered {
     fn finished(&mut self, options: &Options) -> (Phase, Next) {
         self.note_parts(options);
         self.judge_rigidity();
+        self.far = self.distance_from_matches();
         (Phase::Done, Next::Done)
     }
 

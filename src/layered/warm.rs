@@ -50,6 +50,7 @@ impl Layered {
         self.scales = pyramid(&pair, camera, self.smoothing, self.lighting);
         self.pair = pair;
         self.small = None;
+        self.far = 0.0;
         let known = !matches!(self.phase, Phase::Planar(_) | Phase::Search);
         self.level = self.first;
         self.put_labels(&labels);
