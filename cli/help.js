@@ -42,6 +42,7 @@ ${table([
   ["--polygon X1,Y1,X2,Y2,X3,Y3,…", "a curve to start from"],
   ["--auto", "finds up to 7 curves to start from, in place of --circle and --polygon"],
   ["--out DIR", "where results go (out)"],
+  ["--relief", "writes the relief as well: relief.glb with its texture, relief.ply"],
 ])}
 
 The solver:
@@ -51,9 +52,10 @@ ${table([
 ])}
 ${settings(core, all)}
 
-Results: labels.png (0 background, k the k-th curve), depth.pfm, flow.flo, motion.json,
-occlusion.png, and pictures. A scene has the first five for its truth, frame0.png, frame1.png and
-scene.json, in a folder of its name unless --out says otherwise. score compares what both folders
+Results: labels.png (0 background, k the k-th curve), depth.pfm, depth16.png (16 bits, Z times
+depth_scale of motion.json), flow.flo, occlusion.png, motion.json, and pictures. A scene has the
+first six for its truth, frame0.png, frame1.png and scene.json, in a folder of its name unless --out
+says otherwise. score compares what both folders
 have, or two files (.flo, KITTI's 16-bit .png of flow, labels, .pfm), and prints JSON with --json.
 
 Sequences:

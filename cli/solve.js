@@ -24,6 +24,7 @@ const OWN = /** @type {const} */ ({
   preset: { type: "string" },
   iterations: { type: "string" },
   out: { type: "string" },
+  relief: { type: "boolean" },
 });
 
 /**
@@ -51,6 +52,9 @@ export function solve(core, words) {
   prepareResults(out);
   run(solver, mostPasses(core, options));
   const files = solver.files("{}");
+  for (const name of values["relief"] ? ["relief.glb", "relief.ply"] : []) {
+    files.push({ name, bytes: solver.file(name, "{}") });
+  }
   if (said) console.log(said);
   if (focal) console.log(focal);
   if (found) announce(found);

@@ -3,8 +3,8 @@
 //!     cargo run --release --example write_a_ply -- relief.ply
 
 use std::error::Error;
-use std::io::Write;
 
+use relievo::file::ply;
 use relievo::view::{self, ViewParams};
 use relievo::{FramePair, Options, Solver, Status, scene};
 
@@ -23,30 +23,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let params = ViewParams::default();
     let mesh = view::mesh(solver.pair().first(), &solver.interpretation(), &params);
+    std::fs::write(&out, ply::write(&mesh))?;
     let (vertices, faces) = (mesh.positions.len() / 3, mesh.indices.len() / 3);
-    let mut file = std::io::BufWriter::new(std::fs::File::create(&out)?);
-    writeln!(file, "ply\nformat ascii 1.0\nelement vertex {vertices}")?;
-    for axis in ["x", "y", "z"] {
-        writeln!(file, "property float {axis}")?;
-    }
-    for channel in ["red", "green", "blue"] {
-        writeln!(file, "property uchar {channel}")?;
-    }
-    writeln!(
-        file,
-        "element face {faces}\nproperty list uchar int vertex_indices\nend_header"
-    )?;
-    for (p, c) in mesh.positions.chunks(3).zip(mesh.colours.chunks(3)) {
-        writeln!(
-            file,
-            "{} {} {} {} {} {}",
-            p[0], p[1], p[2], c[0], c[1], c[2]
-        )?;
-    }
-    for corner in mesh.indices.chunks(3) {
-        writeln!(file, "3 {} {} {}", corner[0], corner[1], corner[2])?;
-    }
-    file.flush()?;
     println!("{out}: {vertices} vertices, {faces} triangles");
     Ok(())
 }

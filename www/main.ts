@@ -8,8 +8,8 @@
 import about from "./about.html?raw";
 import { byId } from "./dom";
 import { mountCamera } from "./panels/camera";
+import { mountExport } from "./export/export";
 import { mountEnergy, rebuild as rebuildEnergy } from "./panels/energy";
-import { mountFiles } from "./panels/files";
 import { mountFrames } from "./panels/frames";
 import { mountMessage } from "./panels/message";
 import { mountOptions } from "./panels/options";
@@ -63,7 +63,7 @@ mountEnergy();
 mountScores();
 mountCamera();
 mountOptions();
-mountFiles();
+mountExport();
 mountRelief();
 mountGlasses();
 mountTheme(rebuildEnergy);

@@ -103,6 +103,7 @@ fn read_result(u: &mut Unstructured) -> Result<()> {
         iterations: u.arbitrary()?,
         energy: u.arbitrary()?,
         seconds: Seconds::default(),
+        depth_scale: None,
     };
     let labels = png::write_labels(&labels).unwrap();
     let files = ResultFiles {

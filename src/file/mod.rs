@@ -1,12 +1,15 @@
-//! Results as files that other programs read: flow, depth, labels, motion, pictures.
+//! Results as files that other programs read: flow, depth, labels, motion, pictures, surfaces.
 
+pub mod depth16;
 pub mod flo;
+pub mod glb;
 pub mod kept;
 pub mod kitti;
 pub mod motion;
 pub(crate) mod packed;
 pub mod parts;
 pub mod pfm;
+pub mod ply;
 pub mod png;
 pub mod result;
 

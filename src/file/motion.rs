@@ -38,6 +38,9 @@ pub struct MotionFile {
     pub energy: Vec<f64>,
     /// Where the time went.
     pub seconds: Seconds,
+    /// Levels of depth16.png per unit of Z, where there is such a file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_scale: Option<f64>,
 }
 
 /// The motion of one region.

@@ -42,6 +42,18 @@ pub fn write_labels(labels: &Grid<u8>) -> Result<Vec<u8>, Error> {
     encode(labels, labels.data(), ExtendedColorType::L8)
 }
 
+/// The bytes of a grey picture of 16 bits a pixel.
+///
+/// # Errors
+/// [`Error::File`] for a picture without pixels.
+pub fn write_grey16(values: &Grid<u16>) -> Result<Vec<u8>, Error> {
+    // The encoder takes them in the order of this machine.
+    let bytes: Vec<u8> = (values.data().iter())
+        .flat_map(|value| value.to_ne_bytes())
+        .collect();
+    encode(values, &bytes, ExtendedColorType::L16)
+}
+
 /// Reads labels. `name` is what error messages call the file.
 ///
 /// # Errors

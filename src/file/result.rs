@@ -1,10 +1,11 @@
 //! A result as the files that measure, as opposed to the pictures that one looks at; and back again.
 //!
-//! labels.png, depth.pfm, flow.flo, occlusion.png (255 where hidden, so that it can be seen) and motion.json. They do not
-//! say what the camera was, nor how far depth can be told: read back, it counts wherever something travels.
+//! labels.png, depth.pfm, the same in 16 bits as depth16.png, flow.flo, occlusion.png (255 where hidden, so that it can be
+//! seen) and motion.json. They do not say what the camera was, nor how far depth can be told: read back, it counts wherever
+//! something travels.
 
 use super::motion::MotionFile;
-use super::{flo, pfm, png};
+use super::{depth16, flo, pfm, png};
 use crate::camera::{Camera, RigidMotion};
 use crate::error::Error;
 use crate::grid::Grid;
@@ -47,22 +48,55 @@ pub struct ResultFiles<'a> {
     pub occlusion: Option<&'a [u8]>,
 }
 
+/// The names of the files of a result.
+pub const NAMES: [&str; 6] = [
+    "labels.png",
+    "depth.pfm",
+    "depth16.png",
+    "flow.flo",
+    "occlusion.png",
+    "motion.json",
+];
+
 /// Names and contents of the files of `found`, which moves as `motion` says.
 ///
 /// # Errors
-/// What [`png::write_labels`] finds.
+/// What [`file()`] finds.
 pub fn write(
     found: &Interpretation,
     motion: &MotionFile,
 ) -> Result<Vec<(&'static str, Vec<u8>)>, Error> {
-    let hidden = found.occluded.map(|hidden| 255 * u8::from(hidden != 0));
-    Ok(vec![
-        ("labels.png", png::write_labels(&found.labels)?),
-        ("depth.pfm", pfm::write(&found.depth)),
-        ("flow.flo", flo::write(&found.flow)),
-        ("occlusion.png", png::write_labels(&hidden)?),
-        ("motion.json", motion.write().into_bytes()),
-    ])
+    let named = NAMES.map(|name| Ok((name, file(name, found, motion)?)));
+    named.into_iter().collect()
+}
+
+/// The contents of one of them, by its name of [`NAMES`].
+///
+/// # Errors
+/// [`Error::Choice`] for another name, [`Error::File`] for an interpretation without pixels.
+pub fn file(name: &str, found: &Interpretation, motion: &MotionFile) -> Result<Vec<u8>, Error> {
+    match name {
+        "labels.png" => png::write_labels(&found.labels),
+        "depth.pfm" => Ok(pfm::write(&found.depth)),
+        "depth16.png" => depth16::write(&found.depth, depth16::scale(&found.depth)),
+        "flow.flo" => Ok(flo::write(&found.flow)),
+        "occlusion.png" => {
+            png::write_labels(&found.occluded.map(|hidden| 255 * u8::from(hidden != 0)))
+        }
+        "motion.json" => {
+            let depth_scale = Some(depth16::scale(&found.depth));
+            let told = MotionFile {
+                depth_scale,
+                ..motion.clone()
+            };
+            Ok(told.write().into_bytes())
+        }
+        _ => Err(Error::Choice {
+            what: "file".to_owned(),
+            value: name.to_owned(),
+            choices: NAMES.join(", "),
+        }),
+    }
 }
 
 impl ResultFiles<'_> {

@@ -6,8 +6,13 @@ use wasm_bindgen::{JsCast, JsValue};
 
 use super::write;
 use crate::error::Error;
+use crate::file::motion::MotionFile;
 use crate::file::parts::Parts;
+use crate::file::{glb, ply, result};
+use crate::frames::Frame;
+use crate::interpretation::Interpretation;
 use crate::score;
+use crate::view::Mesh;
 
 /// An array of `{name, bytes}`.
 pub(super) fn listed(files: Vec<(&'static str, Vec<u8>)>) -> Array {
@@ -20,6 +25,25 @@ pub(super) fn listed(files: Vec<(&'static str, Vec<u8>)>) -> Array {
         entry
     };
     files.into_iter().map(entry).collect()
+}
+
+/// One file of what was found, by its name: of [`result::NAMES`], or, of the surface on
+/// its frame, relief.glb and relief.ply.
+pub(super) fn one(
+    name: &str,
+    found: &Interpretation,
+    motion: &MotionFile,
+    surface: impl FnOnce() -> (Mesh, Frame),
+) -> Result<Uint8Array, Error> {
+    let bytes = match name {
+        "relief.glb" => {
+            let (mesh, frame) = surface();
+            glb::write(&mesh, &frame.rgb)?
+        }
+        "relief.ply" => ply::write(&surface().0),
+        _ => result::file(name, found, motion)?,
+    };
+    Ok(Uint8Array::from(bytes.as_slice()))
 }
 
 #[wasm_bindgen]

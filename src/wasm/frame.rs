@@ -1,6 +1,6 @@
 //! Frames in, pictures out.
 
-use js_sys::Uint8ClampedArray;
+use js_sys::{Uint8Array, Uint8ClampedArray};
 use serde::Serialize;
 use tsify::Tsify;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -9,6 +9,7 @@ use web_sys::ImageData;
 
 use super::{Word, write};
 use crate::error::Error;
+use crate::file::png;
 use crate::frames::Lens;
 use crate::grid::Grid;
 use crate::view;
@@ -113,6 +114,12 @@ impl Picture {
     #[wasm_bindgen(getter)]
     pub fn height(&self) -> usize {
         self.0.height()
+    }
+
+    /// The bytes of a PNG file.
+    #[wasm_bindgen(unchecked_return_type = "Uint8Array<ArrayBuffer>")]
+    pub fn png(&self) -> Result<Uint8Array, Error> {
+        Ok(Uint8Array::from(png::write_rgba(&self.0)?.as_slice()))
     }
 
     /// Four bytes a pixel in row order.

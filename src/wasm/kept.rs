@@ -4,7 +4,7 @@ use js_sys::{Array, Uint8Array};
 use serde::Deserialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use super::files::listed;
+use super::files::{self, listed};
 use super::shown::Shown;
 use super::solver::PICTURES;
 use super::{Frame, Json, Mesh, Picture, Scene, Solver, Word, draw};
@@ -125,6 +125,7 @@ impl Kept {
                 .map(|e| e.unwrap_or(f64::NAN))
                 .collect(),
             seconds: account.seconds,
+            depth_scale: None,
         };
         let contours = outlines.into_iter().map(Outline::contour).collect();
         Ok(Self {
@@ -176,19 +177,23 @@ impl Kept {
     #[wasm_bindgen(unchecked_return_type = "{ name: string; bytes: Uint8Array<ArrayBuffer> }[]")]
     pub fn files(&self, params: &Json) -> Result<Array, Error> {
         let params = params.view_params()?;
-        let found = self.found.scaled(&params.scales);
-        let models: Vec<_> = (self.motion.regions.iter())
-            .filter_map(|region| region.model)
-            .collect();
-        let motion = MotionFile {
-            regions: RegionMotion::list(&found.motions, &models),
-            ..self.motion.clone()
-        };
+        let (found, motion) = self.scaled(&params);
         let mut files = result::write(&found, &motion)?;
         for (kind, name) in PICTURES {
             files.push((name, png::write_rgba(&self.picture(kind, &params)?.0)?));
         }
         Ok(listed(files))
+    }
+
+    /// One of those that measure, or of the relief: as [`Solver::file`] has it.
+    #[wasm_bindgen(unchecked_return_type = "Uint8Array<ArrayBuffer>")]
+    pub fn file(&self, name: &Word, params: &Json) -> Result<Uint8Array, Error> {
+        let params = params.view_params()?;
+        let (found, motion) = self.scaled(&params);
+        files::one(&name.text("name of the file")?, &found, &motion, || {
+            let frame = self.pair.first().clone();
+            (view::mesh(&frame, &self.found, &params), frame)
+        })
     }
 }
 
@@ -198,6 +203,19 @@ impl Kept {
             pair: &self.pair,
             found: &self.found,
         }
+    }
+
+    /// All of it with each region's depth in the unit that `params` says.
+    fn scaled(&self, params: &ViewParams) -> (Interpretation, MotionFile) {
+        let found = self.found.scaled(&params.scales);
+        let models: Vec<_> = (self.motion.regions.iter())
+            .filter_map(|region| region.model)
+            .collect();
+        let motion = MotionFile {
+            regions: RegionMotion::list(&found.motions, &models),
+            ..self.motion.clone()
+        };
+        (found, motion)
     }
 
     fn picture(&self, kind: &str, params: &ViewParams) -> Result<Picture, Error> {

@@ -10,7 +10,7 @@ use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::wasm_bindgen;
 use web_sys::Performance;
 
-use super::files::listed;
+use super::files::{self, listed};
 use super::shown::Shown;
 use super::{Frame, Json, Mesh, Picture, Scene, Word, draw, write};
 use crate::camera::Camera;
@@ -257,6 +257,20 @@ impl Solver {
         Ok(listed(files))
     }
 
+    /// One of those that measure, `labels.png`, `depth.pfm`, `depth16.png`, `flow.flo`, `occlusion.png`, `motion.json`; or
+    /// the relief under the first frame, `relief.glb`, or with a colour for each vertex, `relief.ply`.
+    #[wasm_bindgen(unchecked_return_type = "Uint8Array<ArrayBuffer>")]
+    pub fn file(&self, name: &Word, params: &Json) -> Result<Uint8Array, Error> {
+        let params = params.view_params()?;
+        let found = self.found().scaled(&params.scales);
+        let motion = self.motion_file(&found);
+        files::one(&name.text("name of the file")?, &found, &motion, || {
+            let n = self.shrunk_for(&params);
+            let frame = self.solver.frames_shrunk(n).first().clone();
+            (view::mesh(&frame, &self.found_shrunk(n), &params), frame)
+        })
+    }
+
     /// 0 where the background is seen, k inside the k-th curve; row order.
     pub fn labels(&self) -> Uint8Array {
         Uint8Array::from(self.found().labels.data())
@@ -359,6 +373,7 @@ impl Solver {
                 depth: seconds.steps.depth,
                 curves: seconds.steps.curves,
             },
+            depth_scale: None,
         }
     }
 

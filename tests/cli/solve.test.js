@@ -22,7 +22,17 @@ describe("a solve", () => {
 
   before(() => {
     const curves = ["--circle", "20,24,8", "--polygon", "40,14,56,14,56,34,40,34"];
-    ran = relievo(first, second, ...FOCAL, ...curves, "--iterations", "6", "--out", out);
+    ran = relievo(
+      first,
+      second,
+      ...FOCAL,
+      ...curves,
+      "--iterations",
+      "6",
+      "--relief",
+      "--out",
+      out,
+    );
   });
 
   test("succeeds, with a summary on stdout and nothing on stderr", () => {
@@ -35,7 +45,8 @@ describe("a solve", () => {
 
   test("writes data and pictures", () => {
     const names = readdirSync(out);
-    const data = ["labels.png", "depth.pfm", "flow.flo", "motion.json", "occlusion.png"];
+    const data = ["labels.png", "depth.pfm", "depth16.png", "flow.flo", "motion.json"];
+    data.push("occlusion.png", "relief.glb", "relief.ply");
     const pictures = ["segmentation", "depth", "relief", "flow", "anaglyph", "confidence"];
     for (const name of [...data, ...pictures.map((picture) => `${picture}.png`)]) {
       assert.ok(names.includes(name), `${name} is missing`);
@@ -74,6 +85,15 @@ describe("a solve", () => {
       const mean = rho.reduce((sum, r) => sum + r, 0) / rho.length;
       assert.ok(Math.abs(mean - 1) < 0.1, `mean 1/Z is ${mean}`);
     }
+  });
+
+  test("writes depth in 16 bits, its scale, and the relief", () => {
+    assert.deepEqual([...bytes("depth16.png").subarray(24, 26)], [16, 0]);
+    assert.ok(JSON.parse(String(bytes("motion.json"))).depth_scale > 0);
+    const glb = bytes("relief.glb");
+    assert.equal(glb.subarray(0, 4).toString("latin1"), "glTF");
+    assert.equal(glb.readUInt32LE(8), glb.length);
+    assert.match(bytes("relief.ply").subarray(0, 40).toString("latin1"), /^ply\nformat binary/);
   });
 
   test("writes flow in Middlebury's format", () => {

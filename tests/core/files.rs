@@ -6,7 +6,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 use relievo::file::motion::{MotionFile, RegionMotion, Seconds};
 use relievo::file::parts::Parts;
 use relievo::file::result::{self, ResultFiles};
-use relievo::file::{flo, kitti, pfm, png};
+use relievo::file::{depth16, flo, kitti, pfm, png};
 use relievo::{Error, Flow, Grid, Interpretation, MotionModel, scene};
 
 fn flow() -> Flow {
@@ -119,6 +119,42 @@ fn malformed_pfm_is_refused() {
     refused(pfm::read(&[b' '; 100_000], "a.pfm"), "Pf");
 }
 
+/// The values of a 16-bit PNG.
+fn levels(bytes: &[u8]) -> Vec<u16> {
+    match image::load_from_memory(bytes).unwrap() {
+        image::DynamicImage::ImageLuma16(picture) => picture.into_raw(),
+        other => panic!("{:?}", other.color()),
+    }
+}
+
+#[test]
+fn depth_of_16_bits_is_depth_but_for_half_a_level() {
+    let mut depth = Grid::from_fn(40, 30, |x, y| 0.7 + (x as f32 * 0.7 + y as f32).sin().abs());
+    depth[(0, 0)] = f32::INFINITY;
+    depth[(1, 0)] = f32::NAN;
+    depth[(2, 0)] = -1.0;
+    let scale = depth16::scale(&depth);
+    let levels_of = levels(&depth16::write(&depth, scale).unwrap());
+    assert_eq!(levels_of[..3], [0, 0, 0]);
+    assert_eq!(levels_of.iter().copied().max(), Some(u16::MAX));
+    for (z, level) in depth.data().iter().zip(&levels_of).skip(3) {
+        let back = f64::from(*level) / scale;
+        let off = (back - f64::from(*z)).abs() * scale;
+        assert!(off <= 0.5 + 1e-6, "{z} came back as {back}");
+    }
+    // One pixel that is very far takes nothing from the others, and is as far as can be said.
+    depth[(3, 0)] = 1e6;
+    let scale = depth16::scale(&depth);
+    let clipped = levels(&depth16::write(&depth, scale).unwrap());
+    assert_eq!(clipped[3], u16::MAX);
+    assert!(scale > 1024.0, "{scale} levels per unit");
+    let nothing = Grid::new(2, 2, f32::INFINITY);
+    assert_eq!(
+        levels(&depth16::write(&nothing, depth16::scale(&nothing)).unwrap()),
+        [0; 4]
+    );
+}
+
 #[test]
 fn labels_return_exactly_and_other_pictures_are_refused() {
     let labels = Grid::from_fn(7, 5, |x, y| ((x + 2 * y) % 8) as u8);
@@ -158,6 +194,7 @@ fn motion_returns_exactly() {
             depth: 0.1,
             curves: 0.1,
         },
+        depth_scale: Some(1.0 / 3.0),
     };
     let text = motion.write();
     assert_eq!(MotionFile::read(&text).unwrap(), motion);
@@ -195,6 +232,29 @@ fn saved() -> (Interpretation, MotionFile, Vec<(&'static str, Vec<u8>)>) {
     };
     let files = result::write(&truth, &motion).unwrap();
     (truth, motion, files)
+}
+
+#[test]
+fn files_come_singly_or_together_and_tell_the_scale_of_depth() {
+    let (truth, motion, files) = saved();
+    assert_eq!(
+        files.iter().map(|(name, _)| *name).collect::<Vec<_>>(),
+        result::NAMES
+    );
+    for (name, bytes) in &files {
+        assert_eq!(
+            &result::file(name, &truth, &motion).unwrap(),
+            bytes,
+            "{name}"
+        );
+    }
+    assert!(result::file("depth.png", &truth, &motion).is_err());
+    let bytes = |wanted: &str| &files.iter().find(|(name, _)| *name == wanted).unwrap().1;
+    let told = MotionFile::read(std::str::from_utf8(bytes("motion.json")).unwrap()).unwrap();
+    let scale = told.depth_scale.unwrap();
+    for (z, level) in truth.depth.data().iter().zip(levels(bytes("depth16.png"))) {
+        assert!((f64::from(level) - scale * f64::from(*z)).abs() < 0.51);
+    }
 }
 
 /// Reads them again, `name` having been replaced by `bytes`.

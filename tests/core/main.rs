@@ -25,5 +25,6 @@ mod lighting;
 mod options;
 mod pyramid;
 mod score;
+mod surfaces;
 mod tables;
 mod window;

@@ -88,6 +88,13 @@ export async function inOpen(page: Page): Promise<Page> {
   return page;
 }
 
+/** The dialog with all there is to take away. */
+export async function inExport(page: Page): Promise<Page> {
+  await page.getByRole("button", { name: "Export", exact: true }).click();
+  await page.locator("#export-sheet").waitFor();
+  return page;
+}
+
 /** The pace and the parts of a pass; behind a button where the window is not wide. */
 export async function inTransport(page: Page): Promise<Page> {
   const more = page.getByRole("button", { name: "Single parts and speed" });

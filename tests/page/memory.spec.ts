@@ -17,6 +17,7 @@ import {
   solve,
   test,
   until,
+  inExport,
   inResult,
   inSettings,
   inTransport,
@@ -67,8 +68,9 @@ test("curves, settings, view and result are there after a reload", async ({ open
   expect((await look(page)).print).toBe(seen.print);
   await expect((await inResult(page)).locator("#energy-panel")).toBeVisible();
   // It can be worked on as if nothing had been.
-  await (await inResult(page)).getByRole("button", { name: "Result files" }).click();
-  await expect(page.getByRole("link", { name: /depth\.pfm/ })).toBeVisible();
+  const take = (await inExport(page)).getByRole("button", { name: "Depth Z: PFM" });
+  await Promise.all([page.waitForEvent("download"), take.click()]);
+  await page.keyboard.press("Escape");
   await solve(page);
 });
 

@@ -16,6 +16,7 @@ import {
   solve,
   test,
   until,
+  inExport,
   inResult,
   inSettings,
   inTransport,
@@ -385,7 +386,9 @@ test("a refused value leaves the run alone, and its sentence goes with it", asyn
   await inSettings(page);
   await runLong(page);
   // Files of one pass would be gone with the next.
-  await expect((await inResult(page)).getByRole("button", { name: "Result files" })).toBeDisabled();
+  const take = (await inExport(page)).getByRole("button", { name: "Depth Z: PFM" });
+  await expect(take).toBeDisabled();
+  await page.keyboard.press("Escape");
   const epsilon = (await inSettings(page)).locator("#option-epsilon");
   const good = await epsilon.inputValue();
   await epsilon.fill("99");

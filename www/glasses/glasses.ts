@@ -6,7 +6,7 @@
  */
 
 import { byId, make } from "../dom";
-import { takePicture } from "../panels/files";
+import { takePicture } from "../stage/snapshot";
 import { SharpCanvas } from "../stage/canvas";
 import { store, type State } from "../store";
 

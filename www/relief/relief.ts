@@ -8,7 +8,7 @@
 
 import { announce, byId } from "../dom";
 import { onMesh } from "../looking";
-import { takePicture } from "../panels/files";
+import { takePicture } from "../stage/snapshot";
 import { store } from "../store";
 import type { MeshData } from "../worker/protocol";
 import { mountLamp, type Lamp } from "./lamp";

@@ -2,7 +2,7 @@
 
 import { extent, middle } from "../curves";
 import type { State } from "../store";
-import type { Point, Shape } from "../worker/protocol";
+import type { Contour, Point, Shape } from "../worker/protocol";
 import { toStage, type Pane } from "./place";
 
 /** Side of a handle, and how near a pointer must come to it, in CSS pixels. */
@@ -39,6 +39,37 @@ export function drawShapes(
       drawHandle(context, toStage(pane, handle(shape)));
     }
     if (!started || chosen) drawName(context, toStage(pane, middle(shape)), `${i + 1}`);
+  }
+}
+
+/** The curves where the solver has them. */
+export function drawContours(
+  context: CanvasRenderingContext2D,
+  pane: Pane,
+  contours: Contour[],
+  colours: string[],
+): void {
+  context.lineJoin = "round";
+  for (const { label, closed, points } of contours) {
+    const path = new Path2D();
+    let lastX = Number.NaN;
+    let lastY = Number.NaN;
+    for (let i = 0; i + 1 < points.length; i += 2) {
+      const x = pane.left + (points[i]! + 0.5) * pane.scale;
+      const y = pane.top + (points[i + 1]! + 0.5) * pane.scale;
+      // Points nearer than the screen can show only take time; the first has no last and stays.
+      if (Math.abs(x - lastX) < 1 && Math.abs(y - lastY) < 1) continue;
+      path.lineTo(x, y);
+      [lastX, lastY] = [x, y];
+    }
+    if (closed) path.closePath();
+    // A dark rim keeps the line legible on light texture, as a light core does on dark.
+    context.lineWidth = 5;
+    context.strokeStyle = "rgb(0 0 0 / 0.65)";
+    context.stroke(path);
+    context.lineWidth = 2.5;
+    context.strokeStyle = colours[label] ?? "white";
+    context.stroke(path);
   }
 }
 

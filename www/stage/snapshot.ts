@@ -5,8 +5,20 @@ import { store } from "../store";
 import { captionsOf } from "../views";
 import { CAPTION_HEIGHT, presentPanes } from "./place";
 
+/** How pictures are taken of views that draw themselves; `null` where at present the stage draws. */
+const takes = new Map<string, () => Promise<Blob | null> | null>();
+
+/** A view that draws itself leaves here how to take its picture. */
+export function takePicture(view: string, take: () => Promise<Blob | null> | null): void {
+  takes.set(view, take);
+}
+
 /** The present view as a PNG, at the resolution of the screen. */
 export async function stagePicture(): Promise<Blob | null> {
+  return takes.get(store.state.view)?.() ?? canvasPicture();
+}
+
+async function canvasPicture(): Promise<Blob | null> {
   const { state } = store;
   const layout = presentPanes();
   if (layout.length === 0) return null;

@@ -10,7 +10,7 @@ import { store, type Split, type State } from "../store";
 import { asks, awaited, captionsOf, viewOf } from "../views";
 import type { Contour } from "../worker/protocol";
 import { SharpCanvas } from "./canvas";
-import { drawShapes } from "./outline";
+import { drawContours, drawShapes } from "./outline";
 import { dividerAt, placeDivider } from "./divider";
 import {
   CAPTION_HEIGHT,
@@ -179,36 +179,6 @@ function clipTo(context: CanvasRenderingContext2D, { left, top, width, height }:
 /** Before anything was computed the contours are the drawn curves, which the upper canvas shows. */
 function visibleContours({ view, started, contours }: Readonly<State>): Contour[] {
   return view === "curves" && !started ? [] : contours;
-}
-
-function drawContours(
-  context: CanvasRenderingContext2D,
-  pane: Pane,
-  contours: Contour[],
-  colours: string[],
-): void {
-  context.lineJoin = "round";
-  for (const { label, closed, points } of contours) {
-    const path = new Path2D();
-    let lastX = Number.NaN;
-    let lastY = Number.NaN;
-    for (let i = 0; i + 1 < points.length; i += 2) {
-      const x = pane.left + (points[i]! + 0.5) * pane.scale;
-      const y = pane.top + (points[i + 1]! + 0.5) * pane.scale;
-      // Points nearer than the screen can show only take time; the first has no last and stays.
-      if (Math.abs(x - lastX) < 1 && Math.abs(y - lastY) < 1) continue;
-      path.lineTo(x, y);
-      [lastX, lastY] = [x, y];
-    }
-    if (closed) path.closePath();
-    // A dark rim keeps the line legible on light texture, as a light core does on dark.
-    context.lineWidth = 5;
-    context.strokeStyle = "rgb(0 0 0 / 0.65)";
-    context.stroke(path);
-    context.lineWidth = 2.5;
-    context.strokeStyle = colours[label] ?? "white";
-    context.stroke(path);
-  }
 }
 
 let captionElements: HTMLElement[] = [];

@@ -21,12 +21,13 @@ interface Point {
   energy: number;
 }
 
+/** Passes whose energies compare. */
 interface Stretch {
   start: number;
   points: Point[];
 }
 
-function stretchesOf({ first }: Timeline, line: Line): Stretch[] {
+export function stretchesOf({ first }: Timeline, line: Line): Stretch[] {
   const stretches: Stretch[] = [];
   for (const [i, energy] of line.energies.entries()) {
     const at = first + 1 + i;

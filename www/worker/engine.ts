@@ -27,7 +27,6 @@ import type {
   PictureRequest,
   Probe,
   Report,
-  ResultFile,
   ScoreTable,
   Setup,
   Shape,
@@ -317,10 +316,13 @@ export class Engine {
     ) as Probe | null;
   }
 
-  private drawn({ of, kind, params, compared }: PictureRequest): Picture {
+  private drawn(
+    { of, kind, params, compared }: PictureRequest,
+    pixels: number | null = MOST_PIXELS,
+  ): Picture {
     const { owned, solver } = this.present();
     const { scene } = owned;
-    const given = JSON.stringify({ ...params, pixels: MOST_PIXELS });
+    const given = JSON.stringify({ ...params, pixels });
     const colours = compared && scene ? scene.sameColours(given) : given;
     if (of === "found" && compared && scene) {
       return (this.restored?.kept ?? solver).viewAligned(kind, colours, scene);
@@ -364,9 +366,20 @@ export class Engine {
     return JSON.parse((this.restored?.kept ?? solver).scores(owned.scene)) as ScoreTable;
   }
 
-  files(params: Record<string, unknown>): ResultFile[] {
+  file(name: string, params: Record<string, unknown>): Uint8Array<ArrayBuffer> {
     const { solver } = this.present();
-    return (this.restored?.kept ?? solver).files(JSON.stringify(params));
+    const given = JSON.stringify({ ...params, pixels: MOST_PIXELS });
+    return (this.restored?.kept ?? solver).file(name, given);
+  }
+
+  /** A picture at the frame's size. */
+  png(request: PictureRequest): Uint8Array<ArrayBuffer> {
+    const picture = this.drawn(request, null);
+    try {
+      return picture.png();
+    } finally {
+      picture.free();
+    }
   }
 
   private present(): { owned: Owned; solver: Solver; setup: Setup } {

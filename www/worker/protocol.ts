@@ -231,11 +231,6 @@ export interface Catalogues {
   colours: string[];
 }
 
-export interface ResultFile {
-  name: string;
-  bytes: Uint8Array<ArrayBuffer>;
-}
-
 /** The worker's side, as the page calls it. */
 export interface Service {
   catalogues(): Promise<Catalogues>;
@@ -286,5 +281,8 @@ export interface Service {
   step(setup: Setup, part: Part, wanted: Wanted): Promise<void>;
   /** Back to the drawn curves; without a setup, to those it has. */
   reset(setup: Setup | null, wanted: Wanted): Promise<void>;
-  files(params: Record<string, unknown>): Promise<ResultFile[]>;
+  /** One file of what was found, by the core's name. */
+  file(name: string, params: Record<string, unknown>): Promise<Uint8Array<ArrayBuffer>>;
+  /** A picture at the frame's size, as PNG. */
+  png(request: PictureRequest): Promise<Uint8Array<ArrayBuffer>>;
 }

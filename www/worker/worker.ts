@@ -222,6 +222,8 @@ function obey(setup: Setup | null, wanted: Wanted, work: () => void): Promise<vo
   });
 }
 
+const moved = (bytes: Uint8Array<ArrayBuffer>) => Comlink.transfer(bytes, [bytes.buffer]);
+
 const service: Service = {
   catalogues: () => guard(catalogues),
 
@@ -331,14 +333,9 @@ const service: Service = {
       engine.reset();
     }),
 
-  files: (params) =>
-    guard(() => {
-      const files = engine.files(params);
-      return Comlink.transfer(
-        files,
-        files.map((file) => file.bytes.buffer),
-      );
-    }),
+  file: (name, params) => guard(() => moved(engine.file(name, params))),
+
+  png: (request) => guard(() => moved(engine.png(request))),
 };
 
 Comlink.expose(service);

@@ -1,0 +1,68 @@
+/** What is taken away, from whoever shows it: files and pictures at the frame's size. */
+
+import { askShown } from "../session";
+import { store, type State } from "../store";
+import { wantedParams } from "../views";
+import type { Whose } from "../worker/protocol";
+
+export type Bytes = Uint8Array<ArrayBuffer>;
+
+/** A picture that can be taken. */
+export interface Shot {
+  of: Whose;
+  kind: string;
+  title: string;
+}
+
+/** Before the solver has been at work there are the frames, and the curves as drawn. */
+const AT_ONCE = ["frame", "second", "segmentation"];
+/** Of the truth, and of Horn–Schunck. */
+const TRUE = ["flow", "depth", "labels", "occlusion"];
+
+/** All that there are at present. */
+export function shots({ catalogues, truth, started }: Readonly<State>): Shot[] {
+  const all = catalogues?.views ?? [];
+  const found = all
+    .filter(({ kind }) => started || AT_ONCE.includes(kind))
+    .map(({ kind, title }): Shot => ({ of: "found", kind, title }));
+  if (!truth) return found;
+  const known = all.filter(({ kind }) => TRUE.includes(kind));
+  return [
+    ...found,
+    ...known.map(({ kind, title }): Shot => ({ of: "truth", kind, title: `${title}, the truth` })),
+    { of: "horn-schunck", kind: "flow", title: "Motion, Horn–Schunck" },
+  ];
+}
+
+export const nameOf = ({ of, kind }: Shot) => (of === "found" ? kind : `${of}-${kind}`) + ".png";
+
+/** One picture as PNG; `null` where that failed, which has been said. */
+export function pictureOf({ of, kind }: Shot): Promise<Bytes | null> {
+  const { state } = store;
+  const params = { ...wantedParams(state), magnify: 1, legend: true };
+  return askShown(null, (service) => service.png({ of, kind, params, compared: of !== "found" }));
+}
+
+/** One of the core's files. */
+export function fileOf(name: string): Promise<Bytes | null> {
+  return askShown(null, (service) => service.file(name, wantedParams(store.state)));
+}
+
+/** Why there is no result to take away at present; empty where there is one. */
+export function missing({
+  catalogues,
+  playing,
+  frames,
+  started,
+  running,
+}: Readonly<State>): string {
+  if (!frames) return "Open a sequence or two frames first.";
+  if (!catalogues || playing) return "A recording is being shown: wait until the solver is there.";
+  if (running) return "The solver is at work: pause it, or wait until it is done.";
+  return started ? "" : "Run the solver first: there is no result yet.";
+}
+
+/** A name for files of what is open. */
+export function stem({ source }: Readonly<State>): string {
+  return `relievo-${source?.kind === "scene" ? source.name : "frames"}`;
+}
