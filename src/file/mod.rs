@@ -1,7 +1,9 @@
 //! Results as files that other programs read: flow, depth, labels, motion, pictures.
 
+pub mod depth_png;
 pub mod flo;
 pub mod kept;
+pub mod kind;
 pub mod kitti;
 pub mod motion;
 pub(crate) mod packed;
