@@ -7,7 +7,7 @@
 import { byId, make } from "../dom";
 import { fixed, percent } from "../format";
 import { store, type State } from "../store";
-import type { Scores } from "../worker/protocol";
+import type { PartScores } from "../worker/protocol";
 
 interface Row {
   name: string;
@@ -47,14 +47,16 @@ function refresh({ scores, started }: Readonly<State>): void {
         {
           name: "Labels wrong",
           meaning: "Share of pixels in the wrong region",
-          found: percent(found.labels_wrong),
+          found: found.labels_wrong === null ? "–" : percent(found.labels_wrong),
           baseline: "–",
         },
       ].map(line),
     ),
     table(
       ["Region", "IoU", "Depth", "flat", "T", "ω"],
-      found.iou.map((iou, k) => regionLine(found, iou, k)),
+      found.iou
+        .map((iou, k) => regionLine(found, iou, k))
+        .filter((_, k) => known(found, k)),
     ),
     make(
       "p",
@@ -74,7 +76,11 @@ function line({ name, meaning, found, baseline, better }: Row): HTMLElement {
   );
 }
 
-function regionLine(found: Scores, iou: number | null, k: number): HTMLElement {
+/** Whether anything is known of a region. */
+const known = ({ iou, depth_error, translation_angle, rotation_error }: PartScores, k: number) =>
+  [iou, depth_error, translation_angle, rotation_error].some((list) => (list[k] ?? null) !== null);
+
+function regionLine(found: PartScores, iou: number | null, k: number): HTMLElement {
   const turned = found.rotation_error[k];
   const cells = [
     iou === null ? "–" : fixed(iou, 2),

@@ -17,12 +17,15 @@ const BEAT_MS = 220;
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
+/** Of a built-in sequence all is known. */
+const WHOLE = { labels: true, depth: true, flow: true, occlusion: true };
+
 /** Shows a recording from its first picture on; resolves when the last is there. */
 export async function play(recording: Recording): Promise<void> {
   const source = sceneOf(recording.name);
   const { title, lesson, width, height, camera, shapes } = recording;
   store.update({
-    ...{ source, title, lesson, width, height, camera, shapes, truth: true },
+    ...{ source, title, lesson, width, height, camera, shapes, truth: WHOLE },
     ...{ view: "depth", started: true, playing: true },
   });
   await showAll(recording, source);

@@ -5,10 +5,22 @@
  * opened or configured is built anew before the old is let go, so an error leaves things as they were.
  */
 
-import { findCurves, findFocal, Frame, hornSchunck, Kept, type Picture, type Solver } from "./core";
+import { findCurves, findFocal, Frame, Kept, type Solver } from "./core";
 import { carriedOn } from "./carried";
+import { drawn, legendOf, MOST_PIXELS } from "./drawing";
 import { squeeze, unsqueeze } from "./keeping";
-import { build, focalFrom, framesOf, free, ownSetup, take, type Owned } from "./owned";
+import {
+  build,
+  focalFrom,
+  framesOf,
+  free,
+  known,
+  ownSetup,
+  scoresOf,
+  setTruth,
+  take,
+  type Owned,
+} from "./owned";
 import { bitmap } from "./pictures";
 import { goOnFrom } from "./standing";
 import type {
@@ -19,6 +31,7 @@ import type {
   Found,
   Followed,
   FrameFile,
+  KnownParts,
   Legend,
   MeshData,
   Opened,
@@ -34,11 +47,7 @@ import type {
   Source,
   Status,
   Standing,
-  Whose,
 } from "./protocol";
-
-/** Frames with more pixels are drawn smaller. */
-const MOST_PIXELS = 4e6;
 
 export class Engine {
   private owned: Owned | null = null;
@@ -80,7 +89,7 @@ export class Engine {
         setup,
         restored: this.restored !== null,
         focalFrom: focalFrom(owned),
-        truth: scene !== null,
+        truth: known(owned),
       };
     } catch (error) {
       free(owned);
@@ -144,8 +153,11 @@ export class Engine {
       const shapes = kept ?? carriedOn(setup.shapes, this.contours());
       if (kept) solver.setCurves(JSON.stringify(kept));
       owned.first.free();
+      owned.scene?.free();
+      owned.truth?.free();
       owned.baseline?.free();
-      this.owned = { first: owned.second, second: next, scene: null, baseline: null };
+      const none = { scene: null, truth: null, baseline: null };
+      this.owned = { first: owned.second, second: next, ...none };
       this.setup = { ...setup, shapes };
       this.carried = shapes;
       return { frames: await framesOf(solver), shapes };
@@ -293,7 +305,7 @@ export class Engine {
   }
 
   async picture(request: PictureRequest, longest: number): Promise<ImageBitmap> {
-    const picture = this.drawn(request);
+    const picture = drawn(this.present().owned, this.shown(), request);
     try {
       return await bitmap(picture, longest);
     } finally {
@@ -301,11 +313,15 @@ export class Engine {
     }
   }
 
-  legend({ of, kind, params, compared }: PictureRequest): Legend | null {
-    const { scene } = this.present().owned;
-    const given = JSON.stringify(params);
-    const colours = compared && scene ? scene.sameColours(given) : given;
-    return JSON.parse(this.drawer(of).legend(kind, colours)) as Legend | null;
+  legend(request: PictureRequest): Legend | null {
+    return legendOf(this.present().owned, this.shown(), request);
+  }
+
+  /** Takes what is true of the frames from files; on an error all stays. */
+  setTruth(files: FrameFile[]): KnownParts {
+    const { owned } = this.present();
+    setTruth(owned, files);
+    return known(owned)!;
   }
 
   /** What is found at a pixel, if anything is. */
@@ -317,32 +333,9 @@ export class Engine {
     ) as Probe | null;
   }
 
-  private drawn({ of, kind, params, compared }: PictureRequest): Picture {
-    const { owned, solver } = this.present();
-    const { scene } = owned;
-    const given = JSON.stringify({ ...params, pixels: MOST_PIXELS });
-    const colours = compared && scene ? scene.sameColours(given) : given;
-    if (of === "found" && compared && scene) {
-      return (this.restored?.kept ?? solver).viewAligned(kind, colours, scene);
-    }
-    return this.drawer(of).view(kind, colours);
-  }
-
-  private drawer(of: Whose): {
-    view(kind: string, params: string): Picture;
-    legend(kind: string, params: string): string;
-  } {
-    const { owned, solver } = this.present();
-    switch (of) {
-      case "found":
-        return this.restored?.kept ?? solver;
-      case "truth":
-        if (!owned.scene) throw new Error("the truth of these frames is not known");
-        return owned.scene;
-      case "horn-schunck":
-        owned.baseline ??= hornSchunck(owned.first, owned.second);
-        return owned.baseline;
-    }
+  /** What is shown: the solver's, or what was put away. */
+  private shown(): Solver | Kept {
+    return this.restored?.kept ?? this.present().solver;
   }
 
   mesh(params: Record<string, unknown>): MeshData {
@@ -359,9 +352,7 @@ export class Engine {
 
   /** `null` when there is no truth to compare with. */
   scores(): ScoreTable | null {
-    const { owned, solver } = this.present();
-    if (!owned.scene) return null;
-    return JSON.parse((this.restored?.kept ?? solver).scores(owned.scene)) as ScoreTable;
+    return scoresOf(this.present().owned, this.shown());
   }
 
   files(params: Record<string, unknown>): ResultFile[] {

@@ -7,7 +7,7 @@
 
 import * as Comlink from "comlink";
 
-import { catalogues, load, panicMessage } from "./core";
+import { catalogues, fileKind, load, panicMessage } from "./core";
 import { Engine } from "./engine";
 import { keepPass, takePasses } from "./passes";
 import { measure, preview } from "./pictures";
@@ -235,6 +235,11 @@ const service: Service = {
       const seen = await preview(file, longest);
       return Comlink.transfer(seen, [seen.picture]);
     }),
+
+  truthKinds: (files, said) =>
+    guard(() => files.map(({ name, bytes }) => fileKind(name, bytes, said) ?? null)),
+
+  setTruth: (files) => guard(() => engine.setTruth(files)),
 
   displacement: (first, second) => guard(() => measure(first, second)),
 
