@@ -2,6 +2,7 @@
 
 import { FREE, store, type State } from "./store";
 import type { Setting } from "./memory/setting";
+import { FITTING } from "./stage/place";
 import { tells, TOLD } from "./stage/sides";
 import type { Followed, Found, KnownParts, Opened, Setup, Source } from "./worker/protocol";
 
@@ -45,6 +46,7 @@ export function adopt(
     ...NO_TIMELINE,
     scales: [],
     ranges: FREE,
+    zoom: FITTING,
     showing: "first",
     tool: "select",
     playing: false,
@@ -103,6 +105,7 @@ export function follows(source: Source & { kind: "files" }, { frames, shapes }: 
     running: false,
     truth: null,
     scores: null,
+    zoom: FITTING,
     ...NO_TIMELINE,
     showing: "first",
     tool: "select",

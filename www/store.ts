@@ -6,6 +6,7 @@
 
 import type { Film } from "./intake/film";
 import type { Session } from "./memory/database";
+import { FITTING, type Zoom } from "./stage/place";
 import type { Timeline, Visit } from "./timeline/line";
 import type {
   Camera,
@@ -174,6 +175,7 @@ export interface State {
   viewParams: ViewParams;
   split: Split | null;
   ranges: Ranges;
+  zoom: Zoom;
   showing: Showing;
   /** The address of the step of a lesson that is open. */
   lessonStep: string | null;
@@ -278,6 +280,7 @@ export const store = new Store({
   },
   split: null,
   ranges: FREE,
+  zoom: FITTING,
   showing: "first",
   lessonStep: null,
   message: null,

@@ -243,7 +243,7 @@ fn depth_is_lighter_when_nearer_and_neutral_where_unknown() {
         let [r, g, b, _] = picture[at];
         luminance([r, g, b].map(decode))
     };
-    for choice in PALETTES {
+    for choice in PALETTES.iter().filter(|choice| choice.value != "turbo") {
         let params = ViewParams {
             palette: choice.value.into(),
             ..ViewParams::default()

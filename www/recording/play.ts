@@ -5,6 +5,7 @@
 
 import { present, recorded } from "../memory/history";
 import { open, restore } from "../session";
+import { FITTING } from "../stage/place";
 import { store } from "../store";
 import { sceneOf } from "../scenes";
 import { entered, type Timeline } from "../timeline/line";
@@ -26,7 +27,7 @@ export async function play(recording: Recording): Promise<void> {
   const { title, lesson, width, height, camera, shapes } = recording;
   store.update({
     ...{ source, title, lesson, width, height, camera, shapes, truth: WHOLE },
-    ...{ view: "depth", started: true, playing: true },
+    ...{ view: "depth", started: true, playing: true, zoom: FITTING },
   });
   await showAll(recording, source);
 }
