@@ -86,7 +86,8 @@ function fit(): void {
 function seen({ view, viewParams, scales, pace }: Partial<Setting>): Partial<State> {
   return {
     ...(view && { view }),
-    ...(viewParams && { viewParams }),
+    // One that was kept by an earlier page knows of fewer.
+    ...(viewParams && { viewParams: { ...store.state.viewParams, ...viewParams } }),
     ...(scales && { scales }),
     ...(pace !== undefined && { pace }),
   };

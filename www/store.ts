@@ -176,6 +176,8 @@ export interface State {
   split: Split | null;
   ranges: Ranges;
   zoom: Zoom;
+  /** Whether the reliefs of both lines of the timeline stand side by side. */
+  beside: boolean;
   showing: Showing;
   /** The address of the step of a lesson that is open. */
   lessonStep: string | null;
@@ -281,6 +283,7 @@ export const store = new Store({
   split: null,
   ranges: FREE,
   zoom: FITTING,
+  beside: false,
   showing: "first",
   lessonStep: null,
   message: null,

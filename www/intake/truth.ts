@@ -23,7 +23,12 @@ const HEADER = 26;
 
 /** Files that may be of a truth by their first bytes. */
 async function maybe(file: File): Promise<boolean> {
-  const head = new Uint8Array(await file.slice(0, HEADER).arrayBuffer().catch(() => []));
+  const head = new Uint8Array(
+    await file
+      .slice(0, HEADER)
+      .arrayBuffer()
+      .catch(() => []),
+  );
   const text = String.fromCharCode(...head);
   if (/^(PIEH|P[fF]\s|\s*\{)/.test(text)) return true;
   // One number a pixel, or three of 16 bits.

@@ -94,6 +94,7 @@ export async function follow(): Promise<boolean> {
     store.update({ lessonStep: null });
     return target ? await lead(target) : false;
   } finally {
+    tellNow();
     // Names are made in between.
     setTimeout(() => (following = false), 50);
   }
@@ -117,6 +118,7 @@ export async function lead(target: Target): Promise<boolean> {
     if (there && view) store.update({ view });
   }
   if (there && sight) lookLike(sight);
+  else if (there && setting) store.update({ split: null });
   const complaint = complaintOf(name, there, scene === true, useless);
   if (complaint) store.update({ message: complaint });
   return there;

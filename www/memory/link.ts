@@ -59,8 +59,7 @@ export function linkOf(name: string, state: Readonly<State>): string {
     p: pairs(
       Object.fromEntries(
         Object.entries(viewParams).filter(
-          ([key, value]) =>
-            key !== "palette" && DEFAULT_PARAMS[key as keyof ViewParams] !== value,
+          ([key, value]) => key !== "palette" && DEFAULT_PARAMS[key as keyof ViewParams] !== value,
         ),
       ),
     ),

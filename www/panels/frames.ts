@@ -12,7 +12,10 @@ import { store, type State } from "../store";
 const ACCEPT = `${ENDINGS},image/*,video/*,.pnm,.pgm,.ppm,.pbm,.pam,.mpo,.heic,.heif,.jxl,.mkv,.mov`;
 
 export function mountFrames(): void {
-  store.watch(({ frames, slots, names, source, truth }) => [frames, slots, names, source, truth], render);
+  store.watch(
+    ({ frames, slots, names, source, truth }) => [frames, slots, names, source, truth],
+    render,
+  );
   mountSources();
   mountPopover();
   mountDrop();

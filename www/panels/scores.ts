@@ -54,9 +54,7 @@ function refresh({ scores, started }: Readonly<State>): void {
     ),
     table(
       ["Region", "IoU", "Depth", "flat", "T", "ω"],
-      found.iou
-        .map((iou, k) => regionLine(found, iou, k))
-        .filter((_, k) => known(found, k)),
+      found.iou.map((iou, k) => regionLine(found, iou, k)).filter((_, k) => known(found, k)),
     ),
     make(
       "p",

@@ -2,7 +2,7 @@
 
 import { make } from "../dom";
 
-export function mountTouch(place: HTMLElement, canvas: HTMLCanvasElement): void {
+export function mountTouch(place: HTMLElement, canvases: HTMLCanvasElement[]): void {
   const note = make("p", { class: "tap", "aria-hidden": "true" }, "Tap to turn");
   place.append(note);
   const hold = (held: boolean) => place.classList.toggle("held", held);
@@ -11,11 +11,11 @@ export function mountTouch(place: HTMLElement, canvas: HTMLCanvasElement): void 
     "pointerdown",
     (event) => {
       const scrolls = event.pointerType === "touch" && !place.classList.contains("held");
-      if (scrolls && event.target === canvas) event.stopPropagation();
+      if (scrolls && canvases.some((canvas) => canvas === event.target)) event.stopPropagation();
     },
     { capture: true },
   );
-  canvas.addEventListener("click", () => hold(true));
+  for (const canvas of canvases) canvas.addEventListener("click", () => hold(true));
   document.addEventListener("pointerdown", (event) => {
     if (!place.contains(event.target as Node)) hold(false);
   });

@@ -23,7 +23,9 @@ export function drawn(owned: Owned, found: Found, request: PictureRequest): Pict
   }
   const params = colours(owned, request, { ...request.params, pixels: MOST_PIXELS });
   if (of === "found" && compared && truth) return found.viewAligned(kind, params, truth);
-  return of === "truth" ? known(owned).view(kind, params) : measured(owned, found, of).view(kind, params);
+  return of === "truth"
+    ? known(owned).view(kind, params)
+    : measured(owned, found, of).view(kind, params);
 }
 
 export function legendOf(owned: Owned, found: Found, request: PictureRequest): Legend | null {

@@ -343,8 +343,8 @@ export class Engine {
     const given = JSON.stringify({ ...params, pixels: MOST_PIXELS });
     const mesh = (this.restored?.kept ?? solver).mesh(given);
     try {
-      const { positions, normals, uvs, colours, indices, parts } = mesh;
-      return { positions, normals, uvs, colours, indices, parts };
+      const { positions, normals, uvs, colours, indices, parts, deepened } = mesh;
+      return { positions, normals, uvs, colours, indices, parts, deepened };
     } finally {
       mesh.free();
     }

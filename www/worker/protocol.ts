@@ -182,6 +182,8 @@ export interface MeshData {
   indices: Uint32Array<ArrayBuffer>;
   /** How many indices are of what is seen, of what goes on hidden behind it, and of what is of unknown depth. */
   parts: Uint32Array<ArrayBuffer>;
+  /** The factor that depth is multiplied by. */
+  deepened: number;
 }
 
 /** What the worker sends; the next is sent only once the page has drawn this one. */
@@ -288,6 +290,8 @@ export interface Service {
   run(setup: Setup, wanted: Wanted, pace: number): Promise<void>;
   /** What is found at a pixel; `null` outside the frame, and until there is something. */
   probe(x: number, y: number, params: Record<string, unknown>): Promise<Probe | null>;
+  /** The relief of what is found, with the parameters of a view. */
+  mesh(params: Record<string, unknown>): Promise<MeshData>;
   /** Another least time for a pass, while it runs. */
   pace(milliseconds: number): Promise<void>;
   pause(): Promise<void>;
