@@ -76,7 +76,7 @@ describe("a solver", () => {
         assert.ok(width >= WIDTH && height >= HEIGHT, kind);
         assert.equal(picture.rgba().length, 4 * width * height, kind);
       }
-      scene.view(kind, "{}").free();
+      Truth.ofScene(scene).view(kind, "{}").free();
     }
     assert.ok(hornSchunck(scene.first(), scene.second()).view("flow", "{}").width >= WIDTH);
   });
@@ -113,7 +113,8 @@ describe("a solver", () => {
   test("is compared with as much truth as files have", () => {
     const [first, second] = [scene.first(), scene.second()];
     const flow = scene.files().filter(({ name }) => name === "flow.flo");
-    const truth = new Truth(first, second, [{ name: "any name", bytes: flow[0]?.bytes }]);
+    const renamed = flow.map(({ bytes }) => ({ name: "any name", bytes }));
+    const truth = new Truth(first, second, renamed);
     assert.deepEqual(JSON.parse(truth.known()), {
       ...{ labels: false, depth: false, flow: true, occlusion: false },
     });
@@ -126,7 +127,9 @@ describe("a solver", () => {
     assert.deepEqual(kinds, [
       ...[null, null, "labels.png", "depth.pfm", "flow.flo", "occlusion.png", "motion.json"],
     ]);
-    assert.throws(() => new Truth(first, second, [scene.files()[0]]), { message: /is no truth/ });
+    assert.throws(() => new Truth(first, second, scene.files().slice(0, 1)), {
+      message: /is no truth/,
+    });
     const large = new Scene("blocks", 2 * WIDTH, 2 * HEIGHT).files();
     assert.throws(() => new Truth(first, second, large.slice(2, 3)), {
       message: new RegExp(`${2 * WIDTH}×${2 * HEIGHT}.*${WIDTH}×${HEIGHT}`),

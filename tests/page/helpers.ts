@@ -156,7 +156,9 @@ const ROW: Record<string, string> = {
   Labels: "Diagnostics",
   Confidence: "Diagnostics",
   Occlusion: "Diagnostics",
+  Residual: "Diagnostics",
   Compare: "Diagnostics",
+  Error: "Diagnostics",
 };
 
 /** As a person would: the row of views, then the choice within. */

@@ -138,6 +138,8 @@ test("a second line goes on with other settings, and both are compared", async (
   await solve(page);
   const [first] = await energies(page);
   const end = first!.length;
+  // What the last pass says is what it did.
+  await expect(told(page)).toContainText("would explain no region better, so nothing was changed");
   await chooseView(page, "Labels");
   const before = await picture(page);
   await scrub(page, 7);
@@ -174,6 +176,26 @@ test("a second line goes on with other settings, and both are compared", async (
     await expect.poll(() => picture(page), { timeout: PATIENCE }).toBe(print);
   }
   await page.getByRole("button", { name: "Flicker" }).click();
+  // The reliefs of both under one light.
+  await page.getByRole("button", { name: "Side by side" }).click();
+  const canvases = page.locator("#relief canvas");
+  await expect(canvases).toHaveCount(2);
+  const reliefs = async () =>
+    Promise.all([0, 1].map((i) => look(page, `.relief-pane:nth-of-type(${i + 1}) canvas`)));
+  for (const i of [0, 1]) {
+    await expect
+      .poll(async () => (await reliefs())[i]!.colours, { timeout: PATIENCE })
+      .toBeGreaterThan(20);
+  }
+  await expect(page.locator(".relief-name").first()).toContainText("First:");
+  const dark = await reliefs();
+  await page.getByRole("button", { name: /^Light from/ }).press("ArrowRight");
+  for (const i of [0, 1]) {
+    await expect.poll(async () => (await reliefs())[i]!.print).not.toBe(dark[i]!.print);
+  }
+  const lit = await reliefs();
+  await canvases.first().press("ArrowLeft");
+  await expect.poll(async () => (await reliefs())[1]!.print).not.toBe(lit[1]!.print);
 });
 
 test("where the settings allow no more, the curves alone go along, and that is said", async ({

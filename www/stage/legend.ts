@@ -33,9 +33,9 @@ function show(state: Readonly<State>): void {
     seen.add(text);
     return [element(legend, wanted[i]![1], comparing(state))];
   });
-  const holding = document.activeElement?.id === "hold-range";
+  const held = document.activeElement?.id ?? "";
   place.replaceChildren(...elements);
-  if (holding) document.getElementById("hold-range")?.focus();
+  if (held.startsWith("hold-")) document.getElementById(held)?.focus();
 }
 
 function element(legend: Legend, kind: string, compared: boolean): HTMLElement {
@@ -83,7 +83,7 @@ function holder({ hold }: Legend, kind: string): HTMLElement {
       : ranges.most[kind] !== undefined;
   const button = make(
     "button",
-    { type: "button", id: "hold-range", "aria-pressed": String(held) },
+    { type: "button", id: `hold-${kind}`, "aria-pressed": String(held) },
     "Hold",
     make("span", { class: "visually-hidden" }, " the range"),
   );
