@@ -74,7 +74,7 @@ export const VIEWS: View[] = [
   {
     id: "depth",
     label: "Depth",
-    hint: "Near is bright, far is dark; hatched where two frames do not tell.",
+    hint: "From far to near along the palette; hatched where two frames do not tell.",
     kinds: () => ["depth"],
     settings: (state) => [palette(state), ON_TOP],
     curves: true,

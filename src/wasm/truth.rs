@@ -61,8 +61,17 @@ impl Truth {
             given.push((what, name));
             named.push((kind.to_owned(), bytes));
         }
+        let frames = (first.0.width(), first.0.height());
+        // Each by itself first: one that is of other frames is told from those that are of these.
+        for file in &named {
+            if let Some(truth) = Parts::read(std::slice::from_ref(file))?.size()
+                && truth != frames
+            {
+                return Err(Error::TruthSize { truth, frames });
+            }
+        }
         let parts = Parts::read(&named)?;
-        let filled = parts.filled(first.0.width(), first.0.height())?;
+        let filled = parts.filled(frames.0, frames.1)?;
         Ok(Self {
             frames: [first.0.clone(), second.0.clone()],
             parts,

@@ -8,7 +8,7 @@ import { store } from "../store";
 import { endOf, standingAt } from "../timeline/line";
 import { placeOf } from "../timeline/going";
 import { wantedBy } from "../views";
-import type { MeshData } from "../worker/protocol";
+import type { MeshData, Standing } from "../worker/protocol";
 
 /** Nobody scrubs any more, milliseconds. */
 const REST_MS = 200;
@@ -20,23 +20,33 @@ export function mountBeside(
   let factor = 1;
   let timer: ReturnType<typeof setTimeout> | undefined;
   let asked = 0;
+  /** What was asked for last. */
+  let known: { standing: Standing; key: string } | null = null;
 
   const fetch = async () => {
     const { state } = store;
     const { source, timeline, beside, view, running } = state;
     const { mesh } = wantedBy(state);
-    if (!source || !timeline || !beside || view !== "relief" || running || !mesh) return;
+    if (!source || !timeline || !beside || view !== "relief" || !mesh) {
+      known = null;
+      return;
+    }
     const { line, at } = placeOf(state);
     const other = timeline.lines[1 - line];
-    const place = other && { line: 1 - line, at: Math.min(at, endOf(timeline, other)) };
-    const standing = place && standingAt(timeline, place);
-    if (!standing) return;
+    const end = other && endOf(timeline, other);
+    // Beside a line that grows stands all that the other came to.
+    const place = end && { line: 1 - line, at: running ? end : Math.min(at, end) };
+    const standing = place ? standingAt(timeline, place) : null;
+    const params = { ...mesh, relief: factor > 1 && !running ? factor : null };
+    const key = JSON.stringify(params);
+    if (!standing || (known?.standing === standing && known.key === key)) return;
+    known = { standing, key };
     const mine = ++asked;
-    const params = { ...mesh, relief: factor > 1 ? factor : null };
     const drawn = await viewer
       .ask(source, standing, (service) => service.mesh(params))
       .catch(() => null);
-    if (drawn && mine === asked && store.state.beside) show(drawn, 1 - line);
+    if (!drawn) known = null;
+    else if (mine === asked && store.state.beside) show(drawn, 1 - line);
   };
   const later = () => {
     clearTimeout(timer);
