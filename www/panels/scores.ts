@@ -1,5 +1,5 @@
 /**
- * How far from the truth, beside the baseline: only for sequences whose truth is known.
+ * How far from the truth, beside the baseline: as far as the truth is known.
  *
  * Horn–Schunck finds image motion and nothing else, so only two rows have a figure for it.
  */
@@ -26,6 +26,9 @@ function refresh({ scores, started }: Readonly<State>): void {
   byId("scores-panel").hidden = !scores || !started;
   if (!scores || !started) return;
   const { found, baseline } = scores;
+  const regions = found.iou
+    .map((iou, k) => regionLine(found, iou, k))
+    .filter((_, k) => known(found, k));
   byId("scores").replaceChildren(
     table(
       ["", "Found", "Horn–Schunck"],
@@ -50,17 +53,20 @@ function refresh({ scores, started }: Readonly<State>): void {
           found: found.labels_wrong === null ? "–" : percent(found.labels_wrong),
           baseline: "–",
         },
-      ].map(line),
+      ]
+        .filter(({ found: own }) => own !== "–")
+        .map(line),
     ),
-    table(
-      ["Region", "IoU", "Depth", "flat", "T", "ω"],
-      found.iou.map((iou, k) => regionLine(found, iou, k)).filter((_, k) => known(found, k)),
-    ),
-    make(
-      "p",
-      { class: "note" },
-      "IoU: overlap of region and truth. Depth: mean error once the region's scale is aligned, beside that of a flat guess. T: angle between directions. ω: difference per frame.",
-    ),
+    ...(regions.length > 0
+      ? [
+          table(["Region", "IoU", "Depth", "flat", "T", "ω"], regions),
+          make(
+            "p",
+            { class: "note" },
+            "IoU: overlap of region and truth. Depth: mean error once the region's scale is aligned, beside that of a flat guess. T: angle between directions. ω: difference per frame.",
+          ),
+        ]
+      : []),
   );
 }
 
