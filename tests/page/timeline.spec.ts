@@ -139,7 +139,10 @@ test("a second line goes on with other settings, and both are compared", async (
   const [first] = await energies(page);
   const end = first!.length;
   // What the last pass says is what it did.
-  await expect(told(page)).toContainText("would explain no region better, so nothing was changed");
+  const last = await read(page, ({ report }) => report!.last!);
+  if (last.stage === "steps") {
+    await expect(told(page)).toContainText(last.adopted > 0 ? "took it" : "nothing was changed");
+  }
   await chooseView(page, "Labels");
   const before = await picture(page);
   await scrub(page, 7);
