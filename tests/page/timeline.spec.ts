@@ -183,22 +183,20 @@ test("a second line goes on with other settings, and both are compared", async (
   await page.getByRole("button", { name: "Side by side" }).click();
   const canvases = page.locator("#relief canvas");
   await expect(canvases).toHaveCount(2);
-  const reliefs = async () =>
-    Promise.all([0, 1].map((i) => look(page, `.relief-pane:nth-of-type(${i + 1}) canvas`)));
-  for (const i of [0, 1]) {
-    await expect
-      .poll(async () => (await reliefs())[i]!.colours, { timeout: PATIENCE })
-      .toBeGreaterThan(20);
+  const relief = (i: number) => look(page, `.relief-pane:nth-of-type(${i}) canvas`);
+  const often = { timeout: PATIENCE };
+  for (const i of [1, 2]) {
+    await expect.poll(async () => (await relief(i)).colours, often).toBeGreaterThan(20);
   }
   await expect(page.locator(".relief-name").first()).toContainText("First:");
-  const dark = await reliefs();
+  const [dark, other] = [await relief(1), await relief(2)];
   await page.getByRole("button", { name: /^Light from/ }).press("ArrowRight");
-  for (const i of [0, 1]) {
-    await expect.poll(async () => (await reliefs())[i]!.print).not.toBe(dark[i]!.print);
-  }
-  const lit = await reliefs();
+  await expect.poll(async () => (await relief(1)).print, often).not.toBe(dark.print);
+  await expect.poll(async () => (await relief(2)).print, often).not.toBe(other.print);
+  // One is turned, and the other with it.
+  const lit = await relief(2);
   await canvases.first().press("ArrowLeft");
-  await expect.poll(async () => (await reliefs())[1]!.print).not.toBe(lit[1]!.print);
+  await expect.poll(async () => (await relief(2)).print, often).not.toBe(lit.print);
 });
 
 test("where the settings allow no more, the curves alone go along, and that is said", async ({
