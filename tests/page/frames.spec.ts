@@ -92,7 +92,7 @@ test("truth that comes with the frames is scored and mapped; of another size it 
   expect((await look(page)).colours).toBeGreaterThanOrEqual(2);
 
   await (await inOpen(page)).locator("#truth-file").setInputFiles([wide("depth.pfm")]);
-  await expect(message(page)).toContainText("the truth is 112×72");
+  await expect(message(page)).toContainText("truth is 112×72 pixels");
   await expect(message(page)).toContainText("the frames are 96×72");
   expect(await read(page, (state) => state.truth)).toMatchObject({ labels: true, depth: false });
 });
