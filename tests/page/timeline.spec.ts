@@ -189,10 +189,10 @@ test("a second line goes on with other settings, and both are compared", async (
     await expect.poll(async () => (await relief(i)).colours, often).toBeGreaterThan(20);
   }
   await expect(page.locator(".relief-name").first()).toContainText("First:");
-  const [dark, other] = [await relief(1), await relief(2)];
+  const [dark, second] = [await relief(1), await relief(2)];
   await page.getByRole("button", { name: /^Light from/ }).press("ArrowRight");
   await expect.poll(async () => (await relief(1)).print, often).not.toBe(dark.print);
-  await expect.poll(async () => (await relief(2)).print, often).not.toBe(other.print);
+  await expect.poll(async () => (await relief(2)).print, often).not.toBe(second.print);
   // One is turned, and the other with it.
   const lit = await relief(2);
   await canvases.first().press("ArrowLeft");
