@@ -51,6 +51,8 @@ export function mountRelief(): void {
 }
 
 let opening: Promise<void> | null = null;
+/** Makes another pane, once three.js is there. */
+let add = () => {};
 
 async function open(): Promise<void> {
   opening ??= (async () => {
@@ -67,29 +69,36 @@ async function open(): Promise<void> {
       );
       return { place, name, scenery };
     };
-    panes = [pane(), pane()];
-    const sceneries = panes.map(({ scenery }) => scenery);
+    add = () => {
+      const made = pane();
+      panes.push(made);
+      mountKeys(made.scenery);
+      if (panes[0] !== made) made.scenery.lamp = panes[0]!.scenery.lamp;
+    };
+    add();
     lamp = mountLamp(root, {
-      has: (target) => sceneries.some(({ canvas }) => canvas === target),
+      has: (target) => panes.some(({ scenery }) => scenery.canvas === target),
       get lamp() {
-        return sceneries[0]!.lamp;
+        return panes[0]!.scenery.lamp;
       },
       set lamp(from) {
-        for (const scenery of sceneries) scenery.lamp = from;
+        for (const { scenery } of panes) scenery.lamp = from;
       },
     });
-    mountTouch(
-      root,
-      sceneries.map(({ canvas }) => canvas),
-    );
-    sceneries.forEach(mountKeys);
+    mountTouch(root);
     arrange();
     dress();
-    if (pending) sceneries[0]!.setMesh(pending);
+    if (pending) panes[0]!.scenery.setMesh(pending);
     pending = null;
   })();
   try {
     await opening;
+    if (store.state.beside && panes.length < 2) {
+      add();
+      arrange();
+      dress();
+      panes[1]!.scenery.follow(panes[0]!.scenery);
+    }
     panes.forEach(({ scenery }) => scenery.resize());
   } catch (error) {
     opening = null;
