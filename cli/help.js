@@ -55,8 +55,9 @@ ${settings(core, all)}
 Results: labels.png (0 background, k the k-th curve), depth.pfm, depth16.png (16 bits, Z times
 depth_scale of motion.json), flow.flo, occlusion.png, motion.json, and pictures. A scene has the
 first six for its truth, frame0.png, frame1.png and scene.json, in a folder of its name unless --out
-says otherwise. score compares what both folders
-have, or two files (.flo, KITTI's 16-bit .png of flow, labels, .pfm), and prints JSON with --json.
+says otherwise. score compares what both folders have, or two files (.flo, KITTI's 16-bit .png of
+flow, labels, depth as .pfm or as 16-bit grey .png; disparity if the name says "disp"), and prints
+JSON with --json.
 
 Sequences:
 ${table(scenes.map(({ name, title }) => [name, title]))}

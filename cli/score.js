@@ -1,7 +1,7 @@
 // relievo score FOUND TRUTH: how far one folder of results, or one file, is from another.
 
 import { existsSync, statSync } from "node:fs";
-import { extname, join } from "node:path";
+import { join } from "node:path";
 
 import { InputError, UsageError } from "./errors.js";
 import { read } from "./files.js";
@@ -55,7 +55,7 @@ function load(core, path) {
         name,
         bytes: read(join(path, name)),
       }))
-    : [{ name: nameOf(path), bytes: read(path) }];
+    : [nameless(core, path)];
   try {
     return new core.SavedResult(files);
   } catch (error) {
@@ -65,14 +65,11 @@ function load(core, path) {
 }
 
 /**
- * The name that a file by itself would have in a folder. A PNG of 16 bits is KITTI's flow, one of 8 labels.
+ * A file by itself, under the name that it would have in a folder.
+ * @param {Core} core
  * @param {string} path
  */
-function nameOf(path) {
-  const ending = extname(path).toLowerCase();
-  if (ending === ".flo") return "flow.flo";
-  if (ending === ".pfm") return "depth.pfm";
-  if (ending === ".json") return "motion.json";
-  // Its header has the bits of a sample there.
-  return ending === ".png" && read(path)[24] === 16 ? "flow.png" : "labels.png";
+function nameless(core, path) {
+  const bytes = read(path);
+  return { name: core.fileKind(path, bytes, true) ?? "labels.png", bytes };
 }

@@ -110,6 +110,35 @@ pub enum Error {
         /// Width and height of the truth.
         truth: (usize, usize),
     },
+    /// A truth that is not of the frames that are open.
+    #[error(
+        "the truth is {}×{} pixels, the frames are {}×{}; give the truth of the first frame at its own size, or open the frames that it belongs to",
+        .truth.0, .truth.1, .frames.0, .frames.1
+    )]
+    TruthSize {
+        /// Width and height of the truth.
+        truth: (usize, usize),
+        /// Width and height of the frames.
+        frames: (usize, usize),
+    },
+    /// A file that is no truth of any kind.
+    #[error(
+        "{name} is no truth that can be read: flow as .flo or KITTI's 16-bit PNG, labels as 8-bit grey PNG, depth as PFM or 16-bit grey PNG, or motion.json"
+    )]
+    NoTruth {
+        /// The file.
+        name: String,
+    },
+    /// Two files of the same kind.
+    #[error("{one} and {other} both have the true {what}; give one of them")]
+    TruthTwice {
+        /// The one.
+        one: String,
+        /// The other.
+        other: String,
+        /// What both have.
+        what: &'static str,
+    },
     /// Files of one result that are of different sizes.
     #[error(
         "{name} is {}×{}, {than} {}×{} pixels; all files must be those of one result",

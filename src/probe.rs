@@ -56,14 +56,6 @@ pub fn probe(
     let label = found.labels[at];
     let scale = scales.get(usize::from(label)).copied().unwrap_or(1.0);
     let (u, v) = (found.flow.u[at], found.flow.v[at]);
-    // Brightness may be kept on fewer pixels than the frame has.
-    let n = pair.first().grey_factor() as f32;
-    let brightness = |frame: &crate::Frame, x: f32, y: f32| {
-        let at = |c: f32| (c + 0.5) / n - 0.5;
-        frame.grey.bilinear(at(x), at(y))
-    };
-    let (fx, fy) = (x as f32, y as f32);
-    let psi = brightness(pair.second(), fx + u, fy + v) - brightness(pair.first(), fx, fy);
     Some(Probe {
         x,
         y,
@@ -73,11 +65,23 @@ pub fn probe(
         u,
         v,
         speed: u.hypot(v),
-        psi: if u.is_finite() && v.is_finite() {
-            psi
-        } else {
-            f32::NAN
-        },
+        psi: residual(pair, found, at),
         occluded: found.occluded[at] != 0,
     })
+}
+
+/// ψ at a pixel of the frame; not a number where no motion is known.
+pub(crate) fn residual(pair: &FramePair, found: &Interpretation, at: (usize, usize)) -> f32 {
+    let (u, v) = (found.flow.u[at], found.flow.v[at]);
+    if !(u.is_finite() && v.is_finite()) {
+        return f32::NAN;
+    }
+    // Brightness may be kept on fewer pixels than the frame has.
+    let n = pair.first().grey_factor() as f32;
+    let brightness = |frame: &crate::Frame, x: f32, y: f32| {
+        let at = |c: f32| (c + 0.5) / n - 0.5;
+        frame.grey.bilinear(at(x), at(y))
+    };
+    let (x, y) = (at.0 as f32, at.1 as f32);
+    brightness(pair.second(), x + u, y + v) - brightness(pair.first(), x, y)
 }

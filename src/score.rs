@@ -68,7 +68,7 @@ pub struct PartScores {
     pub aae: Option<f64>,
     /// Share of pixels with a wrong label, 0–1.
     pub labels_wrong: Option<f64>,
-    /// As in [`Scores`]; one region where the truth has no labels.
+    /// As in [`Scores`]; regions are those found where the truth has no labels.
     pub iou: Vec<Option<f64>>,
     /// As in [`Scores`].
     pub depth_error: Vec<Option<f64>>,
@@ -104,7 +104,21 @@ pub fn compare(found: &Interpretation, truth: &Interpretation) -> Result<Scores,
 /// [`Error::TruthDiffers`] when the two are of different sizes, [`Error::NothingShared`] when they have nothing in
 /// common.
 pub fn compare_known(found: &Parts, truth: &Parts) -> Result<PartScores, Error> {
-    let scores = compare_parts(&Compared::from(found), &Compared::from(truth))?;
+    shared(compare_parts(
+        &Compared::from(found),
+        &Compared::from(truth),
+    )?)
+}
+
+/// Scores all that was found against what there is of a truth.
+///
+/// # Errors
+/// Those of [`compare_known`].
+pub fn compare_found(found: &Interpretation, truth: &Parts) -> Result<PartScores, Error> {
+    shared(compare_parts(&Compared::of(found), &Compared::from(truth))?)
+}
+
+fn shared(scores: PartScores) -> Result<PartScores, Error> {
     let lists = [
         &scores.depth_error,
         &scores.translation_angle,
@@ -167,7 +181,7 @@ fn compare_parts(found: &Compared, truth: &Compared) -> Result<PartScores, Error
     };
     let labels = both(found.labels, truth.labels)?;
     let depth = both(found.depth, truth.depth)?;
-    let regions = 0..truth.regions();
+    let regions = 0..Partition { found, truth }.regions();
     let pairs = || {
         labels
             .into_iter()
@@ -180,20 +194,13 @@ fn compare_parts(found: &Compared, truth: &Compared) -> Result<PartScores, Error
         let either = pairs().filter(|(a, b)| is(a) || is(b)).count();
         (either > 0).then(|| shared as f64 / either as f64)
     };
-    // Where depth can be compared at all.
-    let own = |i: usize, k: usize| truth.labels.is_none_or(|l| usize::from(l.data()[i]) == k);
-    let seen = |i: usize| {
-        truth.confidence.is_none_or(|c| c.data()[i] > 0.0)
-            && truth.occluded.is_none_or(|o| o.data()[i] == 0)
-    };
+    let part = Partition { found, truth };
     let depths = |k: usize| -> Vec<(f64, f64)> {
         let Some((a, b)) = depth else {
             return Vec::new();
         };
-        (0..b.len())
-            .filter(|&i| own(i, k) && seen(i))
+        part.pixels(k)
             .map(|i| (a.data()[i].into(), b.data()[i].into()))
-            .filter(|&(_, z): &(f64, f64)| z.is_finite() && z > 0.0)
             .collect()
     };
     let flat = |k: usize| depths(k).iter().map(|&(_, z)| (1.0, z)).collect::<Vec<_>>();
@@ -213,6 +220,94 @@ fn compare_parts(found: &Compared, truth: &Compared) -> Result<PartScores, Error
             .map(|k| motions(k).map(|(a, b)| (a.rotation - b.rotation).length()))
             .collect(),
     })
+}
+
+/// The regions over which depth is compared, each with a scale of its own: the truth's, or those found where it has none.
+struct Partition<'a> {
+    found: &'a Compared<'a>,
+    truth: &'a Compared<'a>,
+}
+
+impl<'a> Partition<'a> {
+    fn labels(&self) -> Option<&'a Grid<u8>> {
+        self.truth.labels.or(self.found.labels)
+    }
+
+    fn regions(&self) -> usize {
+        match self.truth.labels {
+            Some(_) => self.truth.regions(),
+            None => self.truth.regions().max(self.found.regions()),
+        }
+    }
+
+    /// Where the true depth of region `k` is known, observable and not hidden.
+    fn pixels(&self, k: usize) -> impl Iterator<Item = usize> {
+        let Compared {
+            depth,
+            confidence,
+            occluded,
+            ..
+        } = *self.truth;
+        let labels = self.labels();
+        (0..depth.map_or(0, Grid::len)).filter(move |&i| {
+            labels.is_none_or(|l| usize::from(l.data()[i]) == k)
+                && confidence.is_none_or(|c| c.data()[i] > 0.0)
+                && occluded.is_none_or(|o| o.data()[i] == 0)
+                && depth.is_some_and(|z| is_depth(z.data()[i].into()))
+        })
+    }
+}
+
+/// 1 where the label is not the true one, 0 where it is; `None` where the truth has none.
+pub(crate) fn label_errors(
+    found: &Interpretation,
+    truth: &Parts,
+) -> Result<Option<Grid<f32>>, Error> {
+    let labels = both(Some(&found.labels), truth.labels.as_ref())?;
+    Ok(labels.map(|(a, b)| {
+        let (width, height) = (a.width(), a.height());
+        Grid::from_fn(width, height, |x, y| f32::from(a[(x, y)] != b[(x, y)]))
+    }))
+}
+
+/// |aẐ − Z|/Z where depth is scored, and as it is scored; elsewhere not a number. `None` where the truth has no depth.
+pub(crate) fn depth_errors(
+    found: &Interpretation,
+    truth: &Parts,
+) -> Result<Option<Grid<f32>>, Error> {
+    let Some((a, b)) = both(Some(&found.depth), truth.depth.as_ref())? else {
+        return Ok(None);
+    };
+    let (found, truth) = (&Compared::of(found), &Compared::from(truth));
+    let part = Partition { found, truth };
+    let mut errors = Grid::new(b.width(), b.height(), f32::NAN);
+    for k in 0..part.regions() {
+        let pixels: Vec<usize> = part.pixels(k).collect();
+        let pair = |&i: &usize| (f64::from(a.data()[i]), f64::from(b.data()[i]));
+        let pairs: Vec<_> = pixels.iter().map(pair).collect();
+        let scale = factor(&pairs).unwrap_or(0.0);
+        for (i, pair) in pixels.into_iter().zip(pairs) {
+            errors.data_mut()[i] = share_off(scale, pair) as f32;
+        }
+    }
+    Ok(Some(errors))
+}
+
+/// Length of the flow's error in pixels; not a number where the truth is not known. `None` where it has no flow.
+pub(crate) fn flow_errors(
+    found: &Interpretation,
+    truth: &Parts,
+) -> Result<Option<Grid<f32>>, Error> {
+    let Some(flow) = &truth.flow else {
+        return Ok(None);
+    };
+    same_size(&found.flow.u, &flow.u)?;
+    let known = |w: f32| if w.is_nan() { 0.0 } else { w };
+    let (width, height) = (flow.u.width(), flow.u.height());
+    Ok(Some(Grid::from_fn(width, height, |x, y| {
+        let [u, v] = [&found.flow.u, &found.flow.v].map(|w| known(w[(x, y)]));
+        (u - flow.u[(x, y)]).hypot(v - flow.v[(x, y)])
+    })))
 }
 
 /// Two grids if there are both.
@@ -267,17 +362,17 @@ fn depth_error(pairs: &[(f64, f64)]) -> Option<f64> {
         return None;
     }
     let a = factor(pairs).unwrap_or(0.0);
-    let sum: f64 = pairs
-        .iter()
-        .map(|&(depth, z)| {
-            if is_depth(depth) {
-                (a * depth - z).abs() / z
-            } else {
-                1.0
-            }
-        })
-        .sum();
+    let sum: f64 = pairs.iter().map(|&pair| share_off(a, pair)).sum();
     Some(sum / pairs.len() as f64)
+}
+
+/// |aẐ − Z|/Z, 1 where no Ẑ was found.
+fn share_off(a: f64, (depth, z): (f64, f64)) -> f64 {
+    if is_depth(depth) {
+        (a * depth - z).abs() / z
+    } else {
+        1.0
+    }
 }
 
 fn is_depth(depth: f64) -> bool {
@@ -298,21 +393,23 @@ fn factor(pairs: &[(f64, f64)]) -> Option<f64> {
 }
 
 /// For each region of `found` the factor that brings its depth to the true one, a = median(Z/Ẑ) over the pixels that
-/// both give to it; 1 where there are none.
+/// both give to it, over all that were found to be of it where the truth has no labels; 1 where there are none.
 ///
 /// # Errors
 /// [`Error::TruthDiffers`] when the two are of different sizes.
-pub fn depth_factors(found: &Interpretation, truth: &Interpretation) -> Result<Vec<f64>, Error> {
-    same_size(&found.labels, &truth.labels)?;
+pub fn depth_factors(found: &Interpretation, truth: &Parts) -> Result<Vec<f64>, Error> {
+    let regions = 0..found.regions();
+    let Some((depth, true_depth)) = both(Some(&found.depth), truth.depth.as_ref())? else {
+        return Ok(regions.map(|_| 1.0).collect());
+    };
     let shared = |k: usize| -> Vec<(f64, f64)> {
         let own = |labels: &Grid<u8>, i: usize| usize::from(labels.data()[i]) == k;
-        (0..found.labels.len())
-            .filter(|&i| own(&found.labels, i) && own(&truth.labels, i))
-            .map(|i| (found.depth.data()[i].into(), truth.depth.data()[i].into()))
+        (0..depth.len())
+            .filter(|&i| own(&found.labels, i) && truth.labels.as_ref().is_none_or(|l| own(l, i)))
+            .map(|i| (depth.data()[i].into(), true_depth.data()[i].into()))
             .filter(|&(_, z): &(f64, f64)| is_depth(z))
             .collect()
     };
-    let regions = 0..found.regions();
     Ok(regions.map(|k| factor(&shared(k)).unwrap_or(1.0)).collect())
 }
 

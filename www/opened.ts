@@ -1,8 +1,10 @@
 /** A pair that has been opened takes the place of the one before, and of what was found in that. */
 
-import { store, type State } from "./store";
+import { FREE, store, type State } from "./store";
 import type { Setting } from "./memory/setting";
-import type { Followed, Found, Opened, Setup, Source } from "./worker/protocol";
+import { FITTING } from "./stage/place";
+import { tells, TOLD } from "./stage/sides";
+import type { Followed, Found, KnownParts, Opened, Setup, Source } from "./worker/protocol";
 
 /**
  * Whether two pairs are of the same frames, perhaps the other way round: what was drawn on the one holds for
@@ -43,21 +45,49 @@ export function adopt(
     heldFound: null,
     ...NO_TIMELINE,
     scales: [],
-    ranges: { span: null, speed: null },
+    ranges: FREE,
+    zoom: FITTING,
     showing: "first",
     tool: "select",
     playing: false,
     ...seen(setting),
   });
-  // A view that needs the truth makes no sense without.
-  if (!opened.truth && store.state.view === "compare") store.update({ view: "curves" });
+  fit();
+}
+
+/** The truth of the pair that is open is known. */
+export function knows(source: Source, truth: KnownParts): void {
+  store.update({ source, truth, scores: null });
+  fit();
+}
+
+/** A view that needs the truth makes no sense without, and shows what the truth tells. */
+function fit(): void {
+  const { truth, view, viewParams } = store.state;
+  const told = TOLD.filter((kind) => tells(truth, kind));
+  const [first] = told;
+  if (!first) {
+    if (["compare", "error"].includes(view)) store.update({ view: "curves" });
+    return;
+  }
+  const { compare, error } = viewParams;
+  const fits = told.includes(error.slice(6));
+  if (fits && tells(truth, compare)) return;
+  store.update({
+    viewParams: {
+      ...viewParams,
+      compare: tells(truth, compare) ? compare : first,
+      error: fits ? error : `error-${first}`,
+    },
+  });
 }
 
 /** How it is looked at. The solver's part of a setting is what the pair was opened with. */
 function seen({ view, viewParams, scales, pace }: Partial<Setting>): Partial<State> {
   return {
     ...(view && { view }),
-    ...(viewParams && { viewParams }),
+    // One that was kept by an earlier page knows of fewer.
+    ...(viewParams && { viewParams: { ...store.state.viewParams, ...viewParams } }),
     ...(scales && { scales }),
     ...(pace !== undefined && { pace }),
   };
@@ -74,6 +104,9 @@ export function follows(source: Source & { kind: "files" }, { frames, shapes }: 
     ...drawn({ shapes, camera, options: {} }),
     focalFinding: store.state.focalFinding,
     running: false,
+    truth: null,
+    scores: null,
+    zoom: FITTING,
     ...NO_TIMELINE,
     showing: "first",
     tool: "select",

@@ -10,7 +10,7 @@ import { announce } from "./dom";
 import { answer, forgetAsked, hold, look, lookThrough, show, viewer, want } from "./looking";
 import { presentFound } from "./memory/held";
 import type { Setting } from "./memory/setting";
-import { adopt, follows, sameFrames } from "./opened";
+import { adopt, follows, knows, sameFrames } from "./opened";
 import { paceOf } from "./pace";
 import { standingAt } from "./timeline/line";
 import { sceneOf } from "./scenes";
@@ -110,6 +110,20 @@ export function follow(next: FrameFile, note: string): Promise<boolean> {
       const followed = await service.follow(next);
       forgetAsked();
       follows({ kind: "files", first: source.second, second: next, note }, followed);
+      await look();
+    }),
+  );
+}
+
+/** Takes files for what is true of the pair that is open; `false` when they are refused. */
+export function takeTruth(truth: FrameFile[]): Promise<boolean> {
+  return attempt("Reading the truth", () =>
+    client.inTurn(async (service) => {
+      const { source } = store.state;
+      if (source?.kind !== "files") return;
+      const known = await service.setTruth(truth);
+      forgetAsked();
+      knows({ ...source, truth }, known);
       await look();
     }),
   );

@@ -6,6 +6,7 @@
 
 import type { Film } from "./intake/film";
 import type { Session } from "./memory/database";
+import { FITTING, type Zoom } from "./stage/place";
 import type { Timeline, Visit } from "./timeline/line";
 import type {
   Camera,
@@ -13,6 +14,7 @@ import type {
   Contour,
   Found,
   FrameFile,
+  KnownParts,
   Legend,
   OptionValues,
   Report,
@@ -78,6 +80,8 @@ export interface ViewParams {
   /** Whether what is of unknown depth is shown, as a ghost. */
   ghosts: boolean;
   compare: string;
+  /** Of what the map of errors is. */
+  error: string;
   curvesOnTop: boolean;
 }
 
@@ -95,6 +99,8 @@ export interface Ranges {
   span: [number, number] | null;
   /** Pixels per frame at full colour. */
   speed: number | null;
+  /** The end of the palette of a residual or of errors, by kind and in its unit. */
+  most: Record<string, number>;
 }
 
 export interface State {
@@ -110,7 +116,8 @@ export interface State {
   height: number;
   frames: [ImageBitmap, ImageBitmap] | null;
   names: [string, string];
-  truth: boolean;
+  /** What is known to be true of the pair, if anything is. */
+  truth: KnownParts | null;
   /** Frames of the user's own, waiting until both are there and fit. */
   slots: [Slot | null, Slot | null];
   /** The clip, animation or pile of photos that was opened last. */
@@ -168,6 +175,9 @@ export interface State {
   viewParams: ViewParams;
   split: Split | null;
   ranges: Ranges;
+  zoom: Zoom;
+  /** Whether the reliefs of both lines of the timeline stand side by side. */
+  beside: boolean;
   showing: Showing;
   /** The address of the step of a lesson that is open. */
   lessonStep: string | null;
@@ -209,6 +219,9 @@ export class Store {
   }
 }
 
+/** Nothing is held. */
+export const FREE: Ranges = { span: null, speed: null, most: {} };
+
 export const store = new Store({
   catalogues: null,
   source: null,
@@ -219,7 +232,7 @@ export const store = new Store({
   height: 0,
   frames: null,
   names: ["", ""],
-  truth: false,
+  truth: null,
   slots: [null, null],
   reel: null,
   shapes: [],
@@ -264,10 +277,13 @@ export const store = new Store({
     material: "textured",
     ghosts: true,
     compare: "flow",
+    error: "error-flow",
     curvesOnTop: true,
   },
   split: null,
-  ranges: { span: null, speed: null },
+  ranges: FREE,
+  zoom: FITTING,
+  beside: false,
   showing: "first",
   lessonStep: null,
   message: null,

@@ -3,7 +3,7 @@
  */
 
 import { byId } from "./dom";
-import { sidesAsk } from "./stage/sides";
+import { sidesAsk, tells, TOLD } from "./stage/sides";
 import { store, type State, type ViewParams } from "./store";
 import type { Choice, Wanted, Whose } from "./worker/protocol";
 
@@ -49,7 +49,7 @@ export const GROUPS: Group[] = [
   {
     id: "diagnostics",
     label: "Diagnostics",
-    views: ["labels", "confidence", "occlusion", "compare"],
+    views: ["labels", "confidence", "occlusion", "residual", "compare", "error"],
   },
 ];
 
@@ -57,6 +57,9 @@ export const groupOf = (view: string): Group =>
   GROUPS.find(({ views }) => views.includes(view)) ?? GROUPS[0]!;
 
 const NONE = () => [];
+const palette = ({ catalogues }: Readonly<State>): Setting => ({
+  ...{ key: "palette", label: "Palette", choices: catalogues?.palettes ?? [] },
+});
 const ON_TOP: Setting = { key: "curvesOnTop", label: "Curves on top" };
 
 export const VIEWS: View[] = [
@@ -71,12 +74,9 @@ export const VIEWS: View[] = [
   {
     id: "depth",
     label: "Depth",
-    hint: "Near is bright, far is dark; hatched where two frames do not tell.",
+    hint: "From far to near along the palette; hatched where two frames do not tell.",
     kinds: () => ["depth"],
-    settings: ({ catalogues }) => [
-      { key: "palette", label: "Palette", choices: catalogues?.palettes ?? [] },
-      ON_TOP,
-    ],
+    settings: (state) => [palette(state), ON_TOP],
     curves: true,
   },
   {
@@ -160,9 +160,9 @@ export const VIEWS: View[] = [
   {
     id: "confidence",
     label: "Confidence",
-    hint: "Bright where depth shows in the image motion, dark where it cannot be told.",
+    hint: "1 where depth shows in the image motion, 0 where it cannot be told.",
     kinds: () => ["confidence"],
-    settings: () => [ON_TOP],
+    settings: (state) => [palette(state), ON_TOP],
     curves: true,
   },
   {
@@ -175,11 +175,19 @@ export const VIEWS: View[] = [
     curves: true,
   },
   {
+    id: "residual",
+    label: "Residual",
+    hint: "|ψ|: what the motion found leaves unexplained of the second frame’s brightness.",
+    kinds: () => ["residual"],
+    settings: (state) => [palette(state), ON_TOP],
+    curves: true,
+  },
+  {
     id: "compare",
     label: "Compare",
     hint: "The truth beside what was found, in the same colours; each region's depth in the truth's unit.",
     kinds: ({ compare }) => [compare],
-    settings: () => [
+    settings: ({ truth }) => [
       {
         key: "compare",
         label: "What",
@@ -188,9 +196,30 @@ export const VIEWS: View[] = [
           { value: "depth", label: "Depth" },
           { value: "labels", label: "Labels" },
           { value: "occlusion", label: "Occlusion" },
-        ],
+        ].filter(({ value }) => tells(truth, value)),
       },
     ],
+  },
+  {
+    id: "error",
+    label: "Error",
+    hint: "How far what was found is from the truth; each region’s depth in the truth’s unit.",
+    kinds: ({ error }) => [error],
+    settings: (state) => [
+      {
+        key: "error",
+        label: "Of",
+        choices: [
+          { value: "error-flow", label: "Motion" },
+          { value: "error-depth", label: "Depth" },
+          { value: "error-labels", label: "Labels" },
+        ].filter(({ value }) => tells(state.truth, value.slice(6))),
+      },
+      palette(state),
+      ON_TOP,
+    ],
+    crisp: true,
+    curves: true,
   },
 ];
 
@@ -206,7 +235,8 @@ export function available({ catalogues, truth }: Readonly<State>): View[] {
   // Until the core has told what it draws, all there are: a recording is shown by then.
   const known = catalogues && new Set(catalogues.views.map(({ kind }) => kind));
   return VIEWS.filter(({ id, kinds }) => {
-    if (id === "compare") return truth;
+    if (id === "compare" || id === "error") return TOLD.some((kind) => tells(truth, kind));
+    if (id === "residual") return true;
     return !known || kinds(store.state.viewParams).every((kind) => known.has(kind));
   });
 }
@@ -225,7 +255,8 @@ export function wantedParams({
   const magnify = width > 0 && width <= FINE_WIDTH ? 2 : 1;
   // The page draws a legend of its own, with numbers.
   const own = { scales, palette, glasses, baseline, convergence, swap, layout, magnify };
-  return { ...own, legend: false, ...ranges };
+  const { span, speed } = ranges;
+  return { ...own, legend: false, span, speed };
 }
 
 /** What the worker should send for what is shown. */
@@ -236,7 +267,7 @@ export function wantedBy(state: Readonly<State>): Omit<Wanted, "id"> {
     pictures: asks(state).map(([of, kind]) => ({
       of,
       kind,
-      params,
+      params: { ...params, most: state.ranges.most[kind] ?? null },
       compared: comparing(state),
     })),
     longest: screenSide(),
@@ -258,7 +289,7 @@ function screenSide(): number {
 
 /** Whether what is found must have the truth's colours. */
 export const comparing = (state: Readonly<State>): boolean =>
-  state.view === "compare" || (state.truth && asks(state).some(([of]) => of !== "found"));
+  state.view === "compare" || (state.truth !== null && asks(state).some(([of]) => of !== "found"));
 
 /** Whose pictures of which kind are on the stage, in order. */
 export function asks(state: Readonly<State>): [Whose, string][] {

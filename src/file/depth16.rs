@@ -1,12 +1,18 @@
-//! Depth as a PNG of 16-bit grey, for programs that read no floats: value = scale · Z, rounded.
+//! Depth as a PNG of 16-bit grey, for programs that read no floats: value = scale · Z, rounded; read in whatever unit.
 //!
 //! 0 where depth is no finite number above 0; the largest value, 65535, there or farther. The scale, which motion.json
 //! tells as `depth_scale`, makes the most of the range: the farthest depth is 65535, unless most pixels would then be
 //! known less well than to one part in 4096. PFM (`pfm.rs`) keeps every bit instead.
 
-use super::png;
+use std::io::Cursor;
+
+use image::{DynamicImage, ImageFormat, ImageReader};
+
+use super::{bounded, png, unreadable};
 use crate::error::Error;
 use crate::grid::Grid;
+
+const FORMAT: &str = "16-bit grey PNG of depth";
 
 /// The least that the median depth becomes: half a level is one part in 4096.
 const MEDIAN: f32 = 2048.0;
@@ -37,6 +43,35 @@ pub fn write(depth: &Grid<f32>, scale: f64) -> Result<Vec<u8>, Error> {
         (scale * f64::from(z)).round().clamp(1.0, u16::MAX.into()) as u16
     };
     png::write_grey16(&depth.map(level))
+}
+
+/// Reads such a file; what is unknown becomes not-a-number. `name` is what error messages call it.
+///
+/// # Errors
+/// [`Error::File`] for anything else, and for sides above the largest frame's.
+pub fn read(bytes: &[u8], name: &str) -> Result<Grid<f32>, Error> {
+    let wrong = |reason: String| unreadable(name, FORMAT, reason);
+    let open = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+    let size = open().into_dimensions().map_err(|e| wrong(e.to_string()))?;
+    let (width, height) = bounded(name, FORMAT, size.0.into(), size.1.into())?;
+    let DynamicImage::ImageLuma16(picture) = open().decode().map_err(|e| wrong(e.to_string()))?
+    else {
+        return Err(wrong(
+            "its pixels are not one 16-bit number each".to_owned(),
+        ));
+    };
+    let known = |sample: u16| {
+        if sample == 0 {
+            f32::NAN
+        } else {
+            f32::from(sample)
+        }
+    };
+    Grid::from_vec(
+        width,
+        height,
+        picture.into_raw().into_iter().map(known).collect(),
+    )
 }
 
 fn known(z: f32) -> bool {

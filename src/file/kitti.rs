@@ -37,3 +37,14 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Flow, Error> {
     };
     Ok(Flow { u: of(0), v: of(1) })
 }
+
+/// Whether a PNG is such a file, and no picture: the third number of a pixel says only whether the others are known.
+pub(super) fn is_flow(bytes: &[u8]) -> bool {
+    let picture = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
+    let bound = |(width, height): (u32, u32)| bounded("", FORMAT, width.into(), height.into());
+    let size = ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png).into_dimensions();
+    if !size.is_ok_and(|size| bound(size).is_ok()) {
+        return false;
+    }
+    matches!(picture.decode(), Ok(DynamicImage::ImageRgb16(it)) if it.pixels().all(|p| p.0[2] <= 1))
+}

@@ -4,6 +4,7 @@ pub mod depth16;
 pub mod flo;
 pub mod glb;
 pub mod kept;
+pub mod kind;
 pub mod kitti;
 pub mod motion;
 pub(crate) mod packed;

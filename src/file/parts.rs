@@ -2,8 +2,8 @@
 
 use super::motion::MotionFile;
 use super::result::motions_of;
-use super::{flo, kitti, pfm, png};
-use crate::camera::RigidMotion;
+use super::{depth16, flo, kitti, pfm, png};
+use crate::camera::{Camera, RigidMotion};
 use crate::error::Error;
 use crate::grid::Grid;
 use crate::interpretation::{Flow, Interpretation};
@@ -39,8 +39,9 @@ impl From<&Interpretation> for Parts {
 }
 
 impl Parts {
-    /// Reads what there is among `files`, names and contents: labels.png, depth.pfm, flow.flo or KITTI's flow.png,
-    /// occlusion.png and motion.json, as a solve or a built-in sequence writes them. Others are left alone.
+    /// Reads what there is among `files`, names and contents: labels.png, depth.pfm or a 16-bit depth.png, disparity.pfm or
+    /// disparity.png (1/Z), flow.flo or KITTI's flow.png, occlusion.png and motion.json. Others are left alone;
+    /// [`kind_of`](super::kind::kind_of) tells what a file of another name is.
     ///
     /// # Errors
     /// [`Error::File`] and [`Error::Json`] for a file that is none of its kind, [`Error::FilesDiffer`] for two of different
@@ -63,10 +64,18 @@ impl Parts {
             (None, None) => None,
         };
         let occluded = file("occlusion.png").map(|bytes| png::read_labels(bytes, "occlusion.png"));
+        let pfm = |name| file(name).map(|bytes| pfm::read(bytes, name)).transpose();
+        let png = |name| {
+            file(name)
+                .map(|bytes| depth16::read(bytes, name))
+                .transpose()
+        };
+        let depth = pfm("depth.pfm")?
+            .or(png("depth16.png")?)
+            .or(png("depth.png")?);
+        let disparity = pfm("disparity.pfm")?.or(png("disparity.png")?);
         let mut parts = Self {
-            depth: file("depth.pfm")
-                .map(|bytes| pfm::read(bytes, "depth.pfm"))
-                .transpose()?,
+            depth: depth.or(disparity.map(|grid| grid.map(f32::recip))),
             occluded: occluded.transpose()?,
             motions: motions.transpose()?,
             confidence: None,
@@ -82,6 +91,42 @@ impl Parts {
         Ok(parts)
     }
 
+    /// All of it as an interpretation of a frame of `width`×`height`, to be drawn: what is not known has confidence 0 or is
+    /// not a number, and all is background where there are no labels.
+    ///
+    /// # Errors
+    /// [`Error::TruthSize`] when it is of another size.
+    pub fn filled(&self, width: usize, height: usize) -> Result<Interpretation, Error> {
+        if let Some(truth) = self.size().filter(|&size| size != (width, height)) {
+            let frames = (width, height);
+            return Err(Error::TruthSize { truth, frames });
+        }
+        let grid = |value: f32| Grid::new(width, height, value);
+        let labels = self.labels.clone();
+        let labels = labels.unwrap_or_else(|| Grid::new(width, height, 0));
+        let regions = 1 + usize::from(labels.data().iter().copied().max().unwrap_or(0));
+        let depth = self.depth.clone().unwrap_or_else(|| grid(f32::NAN));
+        let shows = |z: f32, c: f32| if z.is_finite() && z > 0.0 { c } else { 0.0 };
+        let confidence = Grid::from_fn(width, height, |x, y| {
+            let c = self.confidence.as_ref().map_or(1.0, |c| c[(x, y)]);
+            shows(depth[(x, y)], c)
+        });
+        let flow = self.flow.clone();
+        Ok(Interpretation {
+            camera: Camera::centred(width as f64, width, height)?,
+            flow: flow.unwrap_or_else(|| Flow {
+                u: grid(f32::NAN),
+                v: grid(f32::NAN),
+            }),
+            occluded: (self.occluded.clone()).unwrap_or_else(|| Grid::new(width, height, 0)),
+            motions: (self.motions.clone())
+                .unwrap_or_else(|| vec![RigidMotion::default(); regions]),
+            labels,
+            depth,
+            confidence,
+        })
+    }
+
     /// Width and height of all that there is, `None` where that is motions alone.
     pub fn size(&self) -> Option<(usize, usize)> {
         self.sizes().next().map(|(_, size)| size)
@@ -94,7 +139,7 @@ impl Parts {
         let all = [
             ("labels.png", bytes(&self.labels)),
             ("flow", flow),
-            ("depth.pfm", depth),
+            ("depth", depth),
             ("occlusion.png", bytes(&self.occluded)),
         ];
         all.into_iter()

@@ -160,6 +160,14 @@ impl Approach for Layered {
         self.rejected
     }
 
+    fn adopted(&self) -> usize {
+        if self.stage() == Stage::Steps {
+            self.adopted
+        } else {
+            0
+        }
+    }
+
     fn pack(&self, to: &mut Packer) {
         self.write(to);
     }

@@ -78,6 +78,7 @@ impl Layered {
         let camera = self.scales[0].camera;
         let smooth = frames.map(|frame| blur(frame, self.smoothing));
         let scale = Scale::new(smooth, frames.map(Grid::clone), camera);
+        self.adopted = 0;
         for k in self.unexplained.clone() {
             let support = self.labels.map(|l| usize::from(l) == k);
             let own: Vec<_> = (all.iter().copied())
@@ -97,8 +98,8 @@ impl Layered {
             let refined = refine(&scale, &swept.motion, &support, swept.rho);
             let before = self.surface_cost(k);
             let after = self.mean_cost(k, &refined.motion, |x, y| refined.rho[(x, y)]);
-            if after < GAIN[0] * before {
-                self.adopt(k, refined, [before, after], options);
+            if after < GAIN[0] * before && self.adopt(k, refined, [before, after], options) {
+                self.adopted += 1;
             }
         }
     }
@@ -116,8 +117,14 @@ impl Layered {
     }
 
     /// Takes the motion of `refined` with a surface or with depth pixel by pixel, if that costs less; costs are those of
-    /// the surface as it is and of `refined`.
-    fn adopt(&mut self, k: usize, refined: Refined, [before, cost]: [f64; 2], options: &Options) {
+    /// the surface as it is and of `refined`. Whether it did.
+    fn adopt(
+        &mut self,
+        k: usize,
+        refined: Refined,
+        [before, cost]: [f64; 2],
+        options: &Options,
+    ) -> bool {
         let spacing = self.spacing();
         let prior = self.prior(STIFFNESS[0], self.sigma, options);
         let region = &mut self.regions[k];
@@ -143,6 +150,7 @@ impl Layered {
             apart > usual
         };
         let region = &mut self.regions[k];
+        let adopted = stepped || apart > APART || better;
         if stepped || apart > APART {
             region.state = pixels;
             region.dense = Some(refined.rho);
@@ -150,6 +158,7 @@ impl Layered {
             (region.state, region.model, region.ambiguous) = own;
         }
         region.fresh = false;
+        adopted
     }
 
     /// Share of the pixels of region k that its surface moves by more than a pixel from where `other` moves them with `rho`.

@@ -89,6 +89,8 @@ pub(crate) struct Layered {
     pub(super) small: Option<Rc<Small>>,
     /// Mean distance of flow from matches, pixels, where that is more than one; 0 until the end.
     pub(super) far: f64,
+    /// Of how many regions the last search for depth pixel by pixel took what it found.
+    pub(super) adopted: usize,
     /// Regions that want depth pixel by pixel, when that is due.
     pub(super) unexplained: Vec<usize>,
 }
@@ -130,6 +132,7 @@ impl Layered {
             rejected: false,
             small: None,
             far: 0.0,
+            adopted: 0,
             unexplained: Vec::new(),
             scales,
         };

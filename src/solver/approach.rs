@@ -107,6 +107,11 @@ pub(crate) trait Approach {
         false
     }
 
+    /// Of how many regions the last pass took motion and depth found anew, pixel by pixel.
+    fn adopted(&self) -> usize {
+        0
+    }
+
     /// Writes what is kept between passes.
     fn pack(&self, to: &mut Packer);
 

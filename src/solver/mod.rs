@@ -141,6 +141,7 @@ impl Solver {
             level,
             changed: self.in_frame(changed, level),
             taken_back: self.approach.taken_back(),
+            adopted: self.approach.adopted(),
         });
         let changed = changed as f64 / before.len() as f64;
         let still = self.history.enter(energy, changed, self.options.tolerance);

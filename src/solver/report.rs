@@ -133,6 +133,8 @@ pub struct LastPass {
     pub changed: usize,
     /// Whether it raised the energy, and labels, motions and surfaces were put back.
     pub taken_back: bool,
+    /// Regions of which it took motion and depth found anew, pixel by pixel; 0 for all stages but [`Stage::Steps`].
+    pub adopted: usize,
 }
 
 /// How good a result is expected to be, as the scale at work allows.

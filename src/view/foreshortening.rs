@@ -36,16 +36,19 @@ pub(super) fn foreshorten(rho: &mut [f32], range: [f32; 3], side: f32) -> [f32; 
 
 /// Brings points on their lines of sight, z towards the eye that is at the origin, into a box of about −1 to 1 in x or y.
 /// `range` are their farthest, middle and nearest 1/Z. `deepen` multiplies depth; `None` chooses.
-pub(super) fn boxed(points: &mut [Vec3], range: [f32; 3], side: f32, deepen: Option<f32>) {
+/// Gives the factor.
+pub(super) fn boxed(points: &mut [Vec3], range: [f32; 3], side: f32, deepen: Option<f32>) -> f32 {
     let [far, middle, near] = range.map(f32::recip);
     let across = side * middle;
     let ratio = (far - near) / across;
     let automatic = (SHALLOWEST / ratio.max(1e-6)).clamp(1.0, MOST);
     let origin = Vec3::new(0.0, 0.0, -(near + far) / 2.0);
-    let scale = Vec3::new(1.0, 1.0, deepen.unwrap_or(automatic)) * 2.0 / across;
+    let deepened = deepen.unwrap_or(automatic);
+    let scale = Vec3::new(1.0, 1.0, deepened) * 2.0 / across;
     for p in points {
         *p = (*p - origin) * scale;
     }
+    deepened
 }
 
 /// b, for 1/Z in units of 1/Zm and a `depth` to be drawn in units of Zm: the positive root of

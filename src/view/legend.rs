@@ -60,6 +60,8 @@ pub struct Legend {
     pub unit: &'static str,
     /// `#rrggbb`, in order.
     pub colours: Vec<String>,
+    /// What each colour is called, where those are no labels.
+    pub names: Vec<&'static str>,
     /// Values along it, in order.
     pub marks: Vec<Mark>,
     /// What would draw the same colours for the same values whatever is found later; null where that is so anyway.
@@ -67,7 +69,7 @@ pub struct Legend {
 }
 
 /// The ends of a range, as [`ViewParams`] take them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[cfg_attr(
     all(target_arch = "wasm32", feature = "javascript"),
     derive(tsify::Tsify)
@@ -77,6 +79,8 @@ pub struct Hold {
     pub span: Option<[f64; 2]>,
     /// For [`ViewParams::speed`].
     pub speed: Option<f64>,
+    /// For [`ViewParams::most`].
+    pub most: Option<f64>,
 }
 
 /// The legend of the view `kind` of `found`; `None` for a view whose colours are no measure, and for depth where none
@@ -105,7 +109,8 @@ pub fn legend(
             form: Form::Ramp,
             quantity: "Confidence",
             unit: "",
-            colours: vec!["#000000".to_owned(), "#ffffff".to_owned()],
+            colours: ramp(&Palette::named(&params.palette)?),
+            names: Vec::new(),
             marks: marks(|t| t),
             hold: None,
         }),
@@ -116,6 +121,7 @@ pub fn legend(
             colours: (LABEL_COLOURS.iter().cycle().take(found.regions()))
                 .map(|&rgb| hex(rgb))
                 .collect(),
+            names: Vec::new(),
             marks: Vec::new(),
             hold: None,
         }),
@@ -141,13 +147,12 @@ fn of_depth(found: &Interpretation, params: &ViewParams) -> Result<Option<Legend
         form: Form::Ramp,
         quantity: "Depth",
         unit: "Z̄",
-        colours: (0..STEPS)
-            .map(|i| hex(palette.at(i as f32 / (STEPS - 1) as f32)))
-            .collect(),
+        colours: ramp(&palette),
+        names: Vec::new(),
         marks: marks(|t| 1.0 / (far + t * (near - far))),
         hold: Some(Hold {
             span: Some([far, near].map(f64::from)),
-            speed: None,
+            ..Hold::default()
         }),
     }))
 }
@@ -166,18 +171,26 @@ fn of_motion(found: &Interpretation, params: &ViewParams, form: Form) -> Legend 
         quantity: "Motion",
         unit: "px/frame",
         colours,
+        names: Vec::new(),
         marks: vec![Mark {
             at: 1.0,
             value: full,
         }],
         hold: Some(Hold {
-            span: None,
             speed: Some(full.into()),
+            ..Hold::default()
         }),
     }
 }
 
-fn marks(value: impl Fn(f32) -> f32) -> Vec<Mark> {
+/// Colours along a palette.
+pub(super) fn ramp(palette: &Palette) -> Vec<String> {
+    (0..STEPS)
+        .map(|i| hex(palette.at(i as f32 / (STEPS - 1) as f32)))
+        .collect()
+}
+
+pub(super) fn marks(value: impl Fn(f32) -> f32) -> Vec<Mark> {
     (0..MARKS)
         .map(|i| i as f32 / (MARKS - 1) as f32)
         .map(|at| Mark {
@@ -187,6 +200,6 @@ fn marks(value: impl Fn(f32) -> f32) -> Vec<Mark> {
         .collect()
 }
 
-fn hex([r, g, b]: [u8; 3]) -> String {
+pub(super) fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }

@@ -1,18 +1,24 @@
 //! Where depth can be known, and what is hidden in the second frame.
 
+use super::palette::Palette;
 use super::{Picture, ViewParams, dimmed, mix};
+use crate::error::Error;
 use crate::frames::Frame;
 use crate::interpretation::Interpretation;
 
 /// Colour of what is hidden.
 const HIDDEN: [u8; 3] = [255, 96, 64];
 
-/// Confidence as grey, white = 1.
-pub fn confidence(found: &Interpretation) -> Picture {
-    found.confidence.map(|c| {
-        let grey = (c.clamp(0.0, 1.0) * 255.0).round() as u8;
-        [grey, grey, grey, 255]
-    })
+/// Confidence from 0 to 1 in colours of [`ViewParams::palette`].
+///
+/// # Errors
+/// [`Error::Choice`] for an unknown palette.
+pub fn confidence(found: &Interpretation, params: &ViewParams) -> Result<Picture, Error> {
+    let palette = Palette::named(&params.palette)?;
+    Ok(found.confidence.map(|c| {
+        let [r, g, b] = palette.at(c);
+        [r, g, b, 255]
+    }))
 }
 
 /// What is hidden in the second frame, over the dimmed first one.

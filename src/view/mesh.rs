@@ -60,6 +60,8 @@ pub struct Mesh {
     /// How many of `indices`, in this order, are of what is seen at a known depth, of what goes on hidden behind it, and of
     /// what is seen at an unknown depth.
     pub parts: [u32; 3],
+    /// The factor that its depth is multiplied by.
+    pub deepened: f32,
 }
 
 /// The surface of an interpretation, a vertex every [`ViewParams::step`] pixels, its depth multiplied
@@ -379,7 +381,7 @@ impl Builder<'_> {
         let side = self.frame.width().max(self.frame.height()) as f32;
         let deepen = params.relief.map(|r| r as f32);
         let focal = self.found.camera.focal as f32;
-        boxed(&mut points, self.layers.range, side / focal, deepen);
+        m.deepened = boxed(&mut points, self.layers.range, side / focal, deepen);
         let mut normals = vec![Vec3::ZERO; points.len()];
         for t in m.indices.chunks_exact(3) {
             let [a, b, c] = [t[0], t[1], t[2]].map(|i| i as usize);

@@ -17,6 +17,7 @@ mod layers;
 mod leaps;
 mod legend;
 mod mask;
+mod measured;
 mod mesh;
 mod palette;
 mod params;
@@ -36,6 +37,7 @@ pub use depth::depth;
 pub use flow::{flow, wheel};
 pub use legend::{Form, Hold, Legend, Mark, legend};
 pub use mask::{confidence, occlusion};
+pub use measured::{ERRORS, errors, residuals};
 pub use mesh::{Mesh, mesh};
 pub use palette::{LABEL_COLOURS, PALETTES, Palette};
 pub use params::{Choice, ViewParams};
@@ -123,7 +125,7 @@ const CATALOGUE: [View; 12] = [
     View {
         kind: "confidence",
         title: "Confidence",
-        meaning: "How far depth is observable at each pixel: bright fully, dark not at all.",
+        meaning: "How far depth is observable at each pixel: the palette's end fully, its beginning not at all.",
     },
     View {
         kind: "occlusion",
@@ -191,7 +193,7 @@ pub fn draw(
         "arrows" => Ok(arrows(frame, interpretation, params)),
         "anaglyph" => anaglyph(frame, interpretation, params),
         "stereo" => stereo(frame, interpretation, params),
-        "confidence" => Ok(confidence(interpretation)),
+        "confidence" => confidence(interpretation, params),
         "occlusion" => Ok(occlusion(frame, interpretation, params)),
         _ => Err(Error::Choice {
             what: "view".to_owned(),

@@ -36,12 +36,14 @@ pub struct Choice {
 pub struct ViewParams {
     /// Factor on each region's depth, the background first; 1 where missing.
     pub scales: Vec<f64>,
-    /// Colours of depth, a value of [`PALETTES`](super::PALETTES).
+    /// Colours of depth, confidence, residuals and errors, a value of [`PALETTES`](super::PALETTES).
     pub palette: String,
     /// Whether each region's depth fills the palette on its own.
     pub per_region: bool,
     /// Least and greatest 1/Z that the palette goes over; null: chosen from the depth shown.
     pub span: Option<[f64; 2]>,
+    /// Residual or error, in its unit, at the end of the palette; null: the 98th percentile.
+    pub most: Option<f64>,
     /// How strongly regions are tinted, 0–1.
     pub tint: f64,
     /// Brightness left to a frame beneath arrows and masks, 0–1.
@@ -87,6 +89,7 @@ impl Default for ViewParams {
             palette: "ember".to_owned(),
             per_region: false,
             span: None,
+            most: None,
             tint: 0.22,
             dim: 0.5,
             legend: true,
@@ -133,6 +136,7 @@ impl ViewParams {
         let [far, near] = self.span.unwrap_or([0.0, 1.0]);
         within("span", far, 0.0, 1e6)?;
         within("span", near - far, 1e-9, 1e6)?;
+        within("most", self.most.unwrap_or(1.0), 1e-6, 1e6)?;
         within("tint", self.tint, 0.0, 1.0)?;
         within("dim", self.dim, 0.0, 1.0)?;
         within("spacing", self.spacing.unwrap_or(16.0), 4.0, 4096.0)?;

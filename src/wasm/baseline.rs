@@ -2,12 +2,12 @@
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use super::{Frame, Json, Picture, Word, draw, write};
+use super::shown::Shown;
+use super::{Frame, Json, Picture, Word, draw};
 use crate::error::Error;
 use crate::frames::FramePair;
 use crate::horn_schunck::interpreted;
 use crate::interpretation::Interpretation;
-use crate::view;
 
 /// What Horn–Schunck makes of two frames.
 #[wasm_bindgen]
@@ -28,8 +28,7 @@ pub fn horn_schunck(first: &Frame, second: &Frame) -> Result<Baseline, Error> {
 impl Baseline {
     /// What the colours of a picture stand for: a `Legend` as JSON, `null` where they are no measure.
     pub fn legend(&self, kind: &Word, params: &Json) -> Result<String, Error> {
-        let params = params.view_params()?;
-        Ok(write(&view::legend(&kind.view()?, &self.found, &params)?))
+        self.shown().legend(kind, params)
     }
 
     /// A picture of what it found, which is motion only: `flow` or `arrows`; see `viewCatalogue()`.
@@ -42,5 +41,18 @@ impl Baseline {
             &[],
             &params.view_params()?,
         )
+    }
+}
+
+impl Baseline {
+    pub(super) fn found(&self) -> &Interpretation {
+        &self.found
+    }
+
+    pub(super) fn shown(&self) -> Shown<'_> {
+        Shown {
+            pair: &self.pair,
+            found: &self.found,
+        }
     }
 }

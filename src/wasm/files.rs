@@ -53,31 +53,35 @@ extern "C" {
     pub type Files;
 }
 
+/// Names and contents.
+pub(super) fn files_of(files: &Files) -> Result<Vec<(String, Vec<u8>)>, Error> {
+    let wrong = |reason: &str| Error::Json {
+        what: "list of files",
+        reason: reason.to_owned(),
+    };
+    let list = files.dyn_ref::<Array>();
+    let list = list.ok_or_else(|| wrong("it must be an array of {name, bytes}"))?;
+    let read = |entry: JsValue| {
+        let get = |key: &str| Reflect::get(&entry, &key.into()).ok();
+        let name = get("name").and_then(|name| name.as_string());
+        let bytes = get("bytes").and_then(|bytes| bytes.dyn_into::<Uint8Array>().ok());
+        let both = name.zip(bytes.map(|bytes| bytes.to_vec()));
+        both.ok_or_else(|| wrong("each entry must have a name and bytes"))
+    };
+    list.iter().map(read).collect()
+}
+
 /// What there is of a result, read back from files.
 #[wasm_bindgen(js_name = SavedResult)]
 pub struct SavedResult(Parts);
 
 #[wasm_bindgen(js_class = SavedResult)]
 impl SavedResult {
-    /// Reads what there is among `files`: labels.png, depth.pfm, flow.flo, flow.png as KITTI has it, occlusion.png and
-    /// motion.json.
+    /// Reads what there is among `files`: labels.png, depth.pfm, a 16-bit depth.png, flow.flo, flow.png as KITTI has it,
+    /// occlusion.png and motion.json. `fileKind` tells what a file of another name is.
     #[wasm_bindgen(constructor)]
     pub fn new(files: &Files) -> Result<SavedResult, Error> {
-        let wrong = |reason: &str| Error::Json {
-            what: "list of files",
-            reason: reason.to_owned(),
-        };
-        let list = files.dyn_ref::<Array>();
-        let list = list.ok_or_else(|| wrong("it must be an array of {name, bytes}"))?;
-        let read = |entry: JsValue| {
-            let get = |key: &str| Reflect::get(&entry, &key.into()).ok();
-            let name = get("name").and_then(|name| name.as_string());
-            let bytes = get("bytes").and_then(|bytes| bytes.dyn_into::<Uint8Array>().ok());
-            let both = name.zip(bytes.map(|bytes| bytes.to_vec()));
-            both.ok_or_else(|| wrong("each entry must have a name and bytes"))
-        };
-        let files: Vec<_> = list.iter().map(read).collect::<Result<_, _>>()?;
-        Ok(Self(Parts::read(&files)?))
+        Ok(Self(Parts::read(&files_of(files)?)?))
     }
 
     /// How far this is from the truth, as far as both have the same parts: `PartScores` as JSON.

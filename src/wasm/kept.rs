@@ -7,7 +7,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use super::files::{self, listed};
 use super::shown::Shown;
 use super::solver::PICTURES;
-use super::{Frame, Json, Mesh, Picture, Scene, Solver, Word, draw};
+use super::{Frame, Json, Mesh, Picture, Solver, Word, draw};
 use crate::curves::{Contour, differing};
 use crate::error::Error;
 use crate::file::kept::{self, Precision};
@@ -141,17 +141,6 @@ impl Kept {
         self.picture(&kind.view()?, &params.view_params()?)
     }
 
-    /// The same with each region's depth in the unit of `scene`'s truth.
-    #[wasm_bindgen(js_name = viewAligned)]
-    pub fn view_aligned(
-        &self,
-        kind: &Word,
-        params: &Json,
-        scene: &Scene,
-    ) -> Result<Picture, Error> {
-        self.shown().aligned(kind, params, scene)
-    }
-
     /// What is found at a pixel: a `Probe` as JSON, `null` outside the frame. `params` are those of a view.
     pub fn probe(&self, x: usize, y: usize, params: &Json) -> Result<String, Error> {
         self.shown().probe((x, y), params)
@@ -166,11 +155,6 @@ impl Kept {
     pub fn mesh(&self, params: &Json) -> Result<Mesh, Error> {
         let params = params.view_params()?;
         Ok(Mesh(view::mesh(self.pair.first(), &self.found, &params)))
-    }
-
-    /// How far it is from the truth of `scene`: a `ScoreTable` as JSON.
-    pub fn scores(&self, scene: &Scene) -> Result<String, Error> {
-        self.shown().scores(scene)
     }
 
     /// All of it, as an array of files `{name, bytes}`. `params` are those of [`Kept::view`].
@@ -198,7 +182,7 @@ impl Kept {
 }
 
 impl Kept {
-    fn shown(&self) -> Shown<'_> {
+    pub(super) fn shown(&self) -> Shown<'_> {
         Shown {
             pair: &self.pair,
             found: &self.found,

@@ -60,4 +60,10 @@ impl Mesh {
     pub fn parts(&self) -> Uint32Array {
         Uint32Array::from(self.0.parts.as_slice())
     }
+
+    /// The factor that its depth is multiplied by: that of the view's parameters, or the one that was chosen.
+    #[wasm_bindgen(getter)]
+    pub fn deepened(&self) -> f32 {
+        self.0.deepened
+    }
 }

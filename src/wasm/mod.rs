@@ -19,6 +19,7 @@ mod scene;
 mod shown;
 mod solver;
 mod start;
+mod truth;
 mod working;
 
 pub use baseline::{Baseline, horn_schunck};
@@ -34,6 +35,7 @@ pub use panic::{panic_for_test, panic_message};
 pub use scene::Scene;
 pub use solver::Solver;
 pub use start::{displacement, find_curves, find_focal};
+pub use truth::{Truth, file_kind};
 pub use working::working_sizes;
 
 use serde::Serialize;
@@ -139,6 +141,10 @@ fn draw(
     contours: &[Contour],
     params: &ViewParams,
 ) -> Result<Picture, Error> {
+    if kind == shown::RESIDUAL {
+        let pair = crate::FramePair::new(frames[0].clone(), frames[1].clone())?;
+        return Ok(Picture(view::residuals(&pair, found, params)?.0));
+    }
     let frame = frames[usize::from(kind == "second")];
     view::draw(kind, frame, found, contours, params).map(Picture)
 }

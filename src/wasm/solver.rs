@@ -12,7 +12,7 @@ use web_sys::Performance;
 
 use super::files::{self, listed};
 use super::shown::Shown;
-use super::{Frame, Json, Mesh, Picture, Scene, Word, draw, write};
+use super::{Frame, Json, Mesh, Picture, Word, draw, write};
 use crate::camera::Camera;
 use crate::curves::{Contour, Shape};
 use crate::error::Error;
@@ -203,17 +203,6 @@ impl Solver {
         self.picture(&kind.view()?, &params.view_params()?)
     }
 
-    /// The same with each region's depth in the unit of `scene`'s truth: two frames do not tell it.
-    #[wasm_bindgen(js_name = viewAligned)]
-    pub fn view_aligned(
-        &self,
-        kind: &Word,
-        params: &Json,
-        scene: &Scene,
-    ) -> Result<Picture, Error> {
-        self.shown().aligned(kind, params, scene)
-    }
-
     /// What is found at a pixel: a `Probe` as JSON, `null` outside the frame. `params` are those of a view.
     pub fn probe(&self, x: usize, y: usize, params: &Json) -> Result<String, Error> {
         self.shown().probe((x, y), params)
@@ -231,11 +220,6 @@ impl Solver {
         let found = self.found_shrunk(n);
         let frames = self.solver.frames_shrunk(n);
         Ok(Mesh(view::mesh(frames.first(), &found, &params)))
-    }
-
-    /// How far this is from the truth of `scene`, and Horn–Schunck from its image motion: a `ScoreTable` as JSON.
-    pub fn scores(&self, scene: &Scene) -> Result<String, Error> {
-        self.shown().scores(scene)
     }
 
     /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`].
@@ -300,7 +284,7 @@ impl Solver {
 }
 
 impl Solver {
-    fn shown(&self) -> Shown<'_> {
+    pub(super) fn shown(&self) -> Shown<'_> {
         Shown {
             pair: self.solver.pair(),
             found: self.found(),

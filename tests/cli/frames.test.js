@@ -5,7 +5,16 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
 
-import { decodeAll, Frame, SavedResult, Scene, Solver, workingSizes } from "../../cli/index.js";
+import {
+  decodeAll,
+  Frame,
+  hornSchunck,
+  SavedResult,
+  Scene,
+  Solver,
+  Truth,
+  workingSizes,
+} from "../../cli/index.js";
 import { chunk, file, folder, pgm, png, relievo, waves } from "./relievo.js";
 
 const [WIDTH, HEIGHT] = [64, 48];
@@ -145,7 +154,9 @@ test("results are of the frames' size and in their pixels at any detail", () => 
   assert.equal(solver.labels().length, 800 * 600);
   const small = solver.view("depth", { pixels: 300_000 });
   assert.deepEqual([small.width, small.height], [400, 300]);
-  const { found } = JSON.parse(solver.scores(scene));
+  const { found } = JSON.parse(
+    solver.scores(Truth.ofScene(scene), hornSchunck(scene.first(), scene.second())),
+  );
   assert.ok(found.labels_wrong < 0.01 && found.aee < 0.05);
 });
 

@@ -6,6 +6,7 @@ import { execFileSync } from "node:child_process";
 import { fileURLToPath } from "node:url";
 
 import {
+  fileKind,
   Frame,
   hornSchunck,
   limits,
@@ -13,6 +14,7 @@ import {
   presetCatalogue,
   Scene,
   Solver,
+  Truth,
   viewCatalogue,
 } from "../../cli/index.js";
 
@@ -74,7 +76,7 @@ describe("a solver", () => {
         assert.ok(width >= WIDTH && height >= HEIGHT, kind);
         assert.equal(picture.rgba().length, 4 * width * height, kind);
       }
-      scene.view(kind, "{}").free();
+      Truth.ofScene(scene).view(kind, "{}").free();
     }
     assert.ok(hornSchunck(scene.first(), scene.second()).view("flow", "{}").width >= WIDTH);
   });
@@ -101,9 +103,37 @@ describe("a solver", () => {
   });
 
   test("is scored against the truth beside the baseline", () => {
-    const { found: scores, baseline } = JSON.parse(found.scores(scene));
+    const truth = Truth.ofScene(scene);
+    const flow = hornSchunck(scene.first(), scene.second());
+    const { found: scores, baseline } = JSON.parse(found.scores(truth, flow));
     assert.ok(scores.labels_wrong >= 0 && scores.labels_wrong <= 1);
     assert.ok(baseline.aee > 0 && baseline.aae > 0);
+  });
+
+  test("is compared with as much truth as files have", () => {
+    const [first, second] = [scene.first(), scene.second()];
+    const flow = scene.files().filter(({ name }) => name === "flow.flo");
+    const renamed = flow.map(({ bytes }) => ({ name: "any name", bytes }));
+    const truth = new Truth(first, second, renamed);
+    assert.deepEqual(JSON.parse(truth.known()), {
+      ...{ labels: false, depth: false, flow: true, occlusion: false },
+    });
+    const { found: scores } = JSON.parse(found.scores(truth, hornSchunck(first, second)));
+    assert.ok(scores.aee > 0 && scores.labels_wrong === null);
+    assert.equal(found.viewErrors("flow", {}, truth).width, WIDTH);
+    assert.equal(JSON.parse(found.errorLegend("flow", {}, truth)).unit, "px");
+    assert.throws(() => found.viewErrors("depth", {}, truth), { message: /nothing in common/ });
+    const kinds = scene.files().map(({ name, bytes }) => fileKind(name, bytes, false) ?? null);
+    assert.deepEqual(kinds, [
+      ...[null, null, "labels.png", "depth.pfm", "flow.flo", "occlusion.png", "motion.json"],
+    ]);
+    assert.throws(() => new Truth(first, second, scene.files().slice(0, 1)), {
+      message: /is no truth/,
+    });
+    const large = new Scene("blocks", 2 * WIDTH, 2 * HEIGHT).files();
+    assert.throws(() => new Truth(first, second, large.slice(2, 3)), {
+      message: new RegExp(`${2 * WIDTH}×${2 * HEIGHT}.*${WIDTH}×${HEIGHT}`),
+    });
   });
 
   test("says of each region which motion it is, and how good all of it is", () => {

@@ -73,7 +73,9 @@ test("what was kept exactly is shown exactly, and damage is refused in a sentenc
     const same = kept.files({}).find((file) => file.name === name);
     assert.deepEqual(same?.bytes, bytes, name);
   }
-  assert.equal(kept.scores(scene), solver.scores(scene));
+  const truth = core.Truth.ofScene(scene);
+  const flow = core.hornSchunck(first, second);
+  assert.equal(kept.scores(truth, flow), solver.scores(truth, flow));
   assert.throws(
     () => new core.Kept(first, second, bytes.slice(0, 1000), solver.contours(), solver.report()),
     /not a readable kept result/,

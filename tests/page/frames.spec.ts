@@ -3,8 +3,10 @@
 import type { Page } from "@playwright/test";
 
 import type { State } from "../../www/store";
+import { Scene } from "../../cli/index.js";
 import { walls } from "../walls.js";
 import {
+  chooseView,
   expect,
   framesOf,
   goesOn,
@@ -15,6 +17,7 @@ import {
   read,
   ready,
   runPasses,
+  solve,
   test,
   until,
   inOpen,
@@ -55,6 +58,43 @@ test("two frames are picked, first and second, and run", async ({ opened: page }
   await (await inResult(page)).getByRole("button", { name: "Add a circle" }).click();
   await runPasses(page, 2);
   expect(await read(page, (state) => state.report!.regions.length)).toBe(2);
+});
+
+test("truth that comes with the frames is scored and mapped; of another size it is refused", async ({
+  opened: page,
+}) => {
+  const file = (of: Scene) => (name: string) => ({
+    name,
+    mimeType: "application/octet-stream",
+    buffer: Buffer.from(of.files().find((one) => one.name === name)!.bytes),
+  });
+  const [own, wide] = [file(new Scene("blocks", 96, 72)), file(new Scene("blocks", 112, 72))];
+  await first(page).setInputFiles(["frame0.png", "frame1.png", "flow.flo"].map(own));
+  await ownAreOpen(page);
+  await until(page, (state) => state.truth !== null);
+  expect(await read(page, (state) => state.truth)).toMatchObject({ flow: true, depth: false });
+  await solve(page);
+  const scores = (await inResult(page)).locator("#scores-panel");
+  await expect(scores).toContainText(/AEE\d\.\d+ px/);
+  await expect(scores).not.toContainText("IoU");
+  // Labels after the frames, by the same way.
+  await (await inOpen(page)).locator("#truth-file").setInputFiles([own("labels.png")]);
+  await until(page, (state) => state.truth?.labels === true && state.truth.flow);
+  await expect(page.locator("#slots-note")).toContainText("flow.flo, labels.png");
+  await expect(scores).toContainText("IoU");
+  await page.keyboard.press("Escape");
+  await chooseView(page, "Error");
+  await expect(page.locator("#legend")).toContainText(/Motion error.*px/);
+  await page.locator("#setting-error").selectOption("Labels");
+  await until(page, ({ pictured, pictures }) => pictured === "error error-labels" && !!pictures[0]);
+  await expect(page.locator("#legend li")).toHaveText(["right", "wrong"]);
+  // No curve was drawn: the blocks are wrong, the floor is right.
+  expect((await look(page)).colours).toBeGreaterThanOrEqual(2);
+
+  await (await inOpen(page)).locator("#truth-file").setInputFiles([wide("depth.pfm")]);
+  await expect(message(page)).toContainText("truth is 112×72 pixels");
+  await expect(message(page)).toContainText("the frames are 96×72");
+  expect(await read(page, (state) => state.truth)).toMatchObject({ labels: true, depth: false });
 });
 
 test("two at once are ordered by name, and swapped on demand", async ({ opened: page }) => {

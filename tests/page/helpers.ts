@@ -163,7 +163,9 @@ const ROW: Record<string, string> = {
   Labels: "Diagnostics",
   Confidence: "Diagnostics",
   Occlusion: "Diagnostics",
+  Residual: "Diagnostics",
   Compare: "Diagnostics",
+  Error: "Diagnostics",
 };
 
 /** As a person would: the row of views, then the choice within. */
@@ -236,10 +238,14 @@ export async function onScreen(
       const box = document.getElementById("overlay")!.getBoundingClientRect();
       // The frame is centred and as large as margins of at most 16 px leave room.
       const margin = Math.min(16, box.width / 40);
-      const scale = Math.min((box.width - 2 * margin) / width, (box.height - 2 * margin) / height);
+      // On a narrow stage the zoom's bar has its room below.
+      const bar = box.width < 560 ? 52 : 0;
+      const room = box.height - bar - 2 * margin;
+      const scale = Math.min((box.width - 2 * margin) / width, room / height);
+      const free = box.height - height * scale;
       return {
         x: box.left + (box.width - width * scale) / 2 + (x! + 0.5) * scale,
-        y: box.top + (box.height - height * scale) / 2 + (y! + 0.5) * scale,
+        y: box.top + Math.min(free / 2, Math.max(margin, free - bar)) + (y! + 0.5) * scale,
       };
     },
     [x, y],

@@ -106,6 +106,52 @@ test("Back and Forward step through sequences and views", async ({ opened: page 
   });
 });
 
+test("two views, a held range, a palette and a zoom are steps, and go along in a link", async ({
+  opened: page,
+  browser,
+  baseURL,
+}) => {
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  // Numbers travel with four digits.
+  const seen = async (of: Page) => {
+    const exact = await read(of, ({ view, split, ranges, zoom, viewParams }) => {
+      return JSON.stringify({ view, split, ranges, zoom, palette: viewParams.palette });
+    });
+    return exact.replaceAll(/\d+\.\d+/g, (number) => Number(number).toPrecision(3));
+  };
+  const at = (part: string) =>
+    expect.poll(() => page.evaluate(() => location.hash)).toContain(part);
+  await chooseView(page, "Depth");
+  await page.locator("#setting-palette").selectOption("Viridis");
+  await at("l=viridis");
+  await page.getByRole("button", { name: "Two views" }).click();
+  await page.getByLabel("Left of the divider").selectOption("Truth: motion");
+  await page.getByRole("slider", { name: /Divider/ }).fill("30");
+  await at("s=truth.flow~found.depth~0.3");
+  await page.getByLabel("Right of the divider").selectOption("Error: motion");
+  await page.locator("#legend").getByRole("button", { name: "Hold" }).first().click();
+  await at("r=error-flow:");
+  const before = await seen(page);
+  await page.getByRole("button", { name: "Zoom in" }).click();
+  await at("m=1.5,");
+  const zoomed = await seen(page);
+  await page.goBack();
+  await expect.poll(() => seen(page)).toBe(before);
+  await page.goForward();
+  await expect.poll(() => seen(page)).toBe(zoomed);
+
+  await page.getByRole("button", { name: "Share a link" }).click();
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  const other = await browser.newPage({ baseURL: baseURL! });
+  await open(other, link);
+  await expect.poll(() => seen(other)).toBe(zoomed);
+  await expect(other.locator("#message")).toBeHidden();
+  await expect(other.locator("#side-left")).toHaveValue("truth flow");
+  await other.evaluate(() => (location.hash = "#blocks/depth?s=found.depth~magic~2&l=mud"));
+  await expect(other.locator("#message")).toContainText("its palette");
+  await other.close();
+});
+
 test("what a link replaces can be had again", async ({ opened: page }) => {
   await (await inResult(page)).getByRole("button", { name: "Delete curve 2" }).click();
   await until(page, ({ memory }) => (memory?.length ?? 0) > 0);

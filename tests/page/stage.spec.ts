@@ -134,6 +134,15 @@ test("every map has a legend with its unit", async ({ opened: page }) => {
   await expect(legend).toContainText(/px\/frame.*\d/);
   await chooseView(page, "Confidence");
   await expect(legend).toContainText("Confidence");
+  const ember = await look(page);
+  await page.locator("#setting-palette").selectOption("Turbo");
+  await expect.poll(async () => (await look(page)).print).not.toBe(ember.print);
+  await chooseView(page, "Residual");
+  await expect(legend).toContainText("grey levels");
+  await chooseView(page, "Error");
+  await expect(legend).toContainText(/Motion error.*px/);
+  await page.locator("#setting-error").selectOption("Depth");
+  await expect(legend).toContainText(/Depth error.*%/);
   await chooseView(page, "Labels");
   await expect(legend.locator("li")).toHaveText(["Backgr.", "Curve 1", "Curve 2"]);
 });

@@ -138,6 +138,11 @@ test("a second line goes on with other settings, and both are compared", async (
   await solve(page);
   const [first] = await energies(page);
   const end = first!.length;
+  // What the last pass says is what it did.
+  const last = await read(page, ({ report }) => report!.last!);
+  if (last.stage === "steps") {
+    await expect(told(page)).toContainText(last.adopted > 0 ? "took it" : "nothing was changed");
+  }
   await chooseView(page, "Labels");
   const before = await picture(page);
   await scrub(page, 7);
@@ -174,6 +179,24 @@ test("a second line goes on with other settings, and both are compared", async (
     await expect.poll(() => picture(page), { timeout: PATIENCE }).toBe(print);
   }
   await page.getByRole("button", { name: "Flicker" }).click();
+  // The reliefs of both under one light.
+  await page.getByRole("button", { name: "Side by side" }).click();
+  const canvases = page.locator("#relief canvas");
+  await expect(canvases).toHaveCount(2);
+  const relief = (i: number) => look(page, `.relief-pane:nth-of-type(${i}) canvas`);
+  const often = { timeout: PATIENCE };
+  for (const i of [1, 2]) {
+    await expect.poll(async () => (await relief(i)).colours, often).toBeGreaterThan(20);
+  }
+  await expect(page.locator(".relief-name").first()).toContainText("First:");
+  const [dark, second] = [await relief(1), await relief(2)];
+  await page.getByRole("button", { name: /^Light from/ }).press("ArrowRight");
+  await expect.poll(async () => (await relief(1)).print, often).not.toBe(dark.print);
+  await expect.poll(async () => (await relief(2)).print, often).not.toBe(second.print);
+  // One is turned, and the other with it.
+  const lit = await relief(2);
+  await canvases.first().press("ArrowLeft");
+  await expect.poll(async () => (await relief(2)).print, often).not.toBe(lit.print);
 });
 
 test("where the settings allow no more, the curves alone go along, and that is said", async ({

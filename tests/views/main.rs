@@ -1,5 +1,6 @@
 //! Pictures and meshes of what was found.
 
 mod legend;
+mod measured;
 mod surface;
 mod view;

@@ -3,6 +3,7 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
+use relievo::file::parts::Parts;
 use relievo::view::{
     self, GLASSES, Glasses, KINDS, PALETTES, Palette, Rig, ViewParams, decode, draw, dubois,
     encode, luminance, mesh, parallax, second_eye,
@@ -118,13 +119,14 @@ fn srgb_returns_every_byte() {
 
 #[test]
 fn palettes_grow_steadily_lighter() {
-    for choice in PALETTES {
+    // Turbo is made to tell values apart, and is lightest in the middle.
+    for choice in PALETTES.iter().filter(|choice| choice.value != "turbo") {
         let palette = Palette::named(choice.value).unwrap();
         let light = |i: usize| luminance(palette.at(i as f32 / 255.0).map(decode));
         for i in 4..256 {
             assert!(light(i) > light(i - 4), "{} at {i}", choice.value);
         }
-        assert!(light(0) < 0.03 && light(255) > 0.8, "{}", choice.value);
+        assert!(light(0) < 0.03 && light(255) > 0.75, "{}", choice.value);
     }
 }
 
@@ -241,7 +243,7 @@ fn depth_is_lighter_when_nearer_and_neutral_where_unknown() {
         let [r, g, b, _] = picture[at];
         luminance([r, g, b].map(decode))
     };
-    for choice in PALETTES {
+    for choice in PALETTES.iter().filter(|choice| choice.value != "turbo") {
         let params = ViewParams {
             palette: choice.value.into(),
             ..ViewParams::default()
@@ -462,7 +464,7 @@ fn comparing_gives_the_same_depth_the_same_colour_whatever_a_region_s_unit() {
     let truth = square();
     let found = truth.scaled(&[3.0, 0.2]);
     let params = view::same_colours(&truth, &ViewParams::default());
-    let aligned = view::aligned(&found, &truth).unwrap();
+    let aligned = view::aligned(&found, &Parts::from(&truth)).unwrap();
     let [a, b] = [&truth, &aligned].map(|one| show("depth", one, &params));
     let differing = a.data().iter().zip(b.data());
     let worst = differing.flat_map(|(p, q)| p.iter().zip(q).map(|(a, b)| a.abs_diff(*b)));
@@ -472,7 +474,7 @@ fn comparing_gives_the_same_depth_the_same_colour_whatever_a_region_s_unit() {
     let far = off.depth.data_mut();
     let third = far.len() / 3;
     far[..third].iter_mut().for_each(|z| *z *= 2.0);
-    let aligned = view::aligned(&off, &truth).unwrap();
+    let aligned = view::aligned(&off, &Parts::from(&truth)).unwrap();
     let c = show("depth", &aligned, &params);
     assert_eq!(c.data().last(), a.data().last());
 }

@@ -1,5 +1,5 @@
 /**
- * What becomes of files that were chosen, dropped or pasted: a clip, an animation or three and more pictures go to the
+ * What becomes of files that were chosen, dropped or pasted: those of a truth wait until the frames are open; of the rest, a clip, an animation or three and more pictures go to the
  * filmstrip, a file with two views is a pair, and one or two pictures go to the places of the two frames.
  */
 
@@ -12,6 +12,7 @@ import { formatOf, headOf } from "./formats";
 import { photos } from "./photos";
 import { chooseFrom, keep } from "./reel";
 import { openBoth, put, slotOf, takePair } from "./slots";
+import { attach, partTruth } from "./truth";
 import { twoViews } from "./two-views";
 
 /** What was on the stage, or about to be, when files were chosen. */
@@ -27,6 +28,17 @@ export function takeAll(files: File[], side: 0 | 1 | null): Promise<void> {
 }
 
 async function takeLot(files: File[], side: 0 | 1 | null, then: Before): Promise<void> {
+  const parted = await partTruth(files);
+  if (!parted) return;
+  const { truth, rest } = parted;
+  const before = store.state.source;
+  if (rest.length > 0) await takeFrames(rest, side, then);
+  // With frames, it is the truth of those, and not of a pair that stayed.
+  if (truth.length === 0 || (rest.length > 0 && store.state.source === before)) return;
+  await attach(truth);
+}
+
+async function takeFrames(files: File[], side: 0 | 1 | null, then: Before): Promise<void> {
   const sorted = files.toSorted((a, b) => a.name.localeCompare(b.name, "en", { numeric: true }));
   if (sorted.length === 0) return;
   const film = await filmOf(sorted);

@@ -7,7 +7,7 @@
  *     </article>
  *
  * `data-state` is a link as the page itself makes them (`memory/link.ts`). `data-solve` says what is done with it: `run`,
- * a number of passes, or nothing. `data-term` names the term of (7) that the step is about.
+ * a number of passes, or nothing. `data-beside` is an option with which it is solved once more, to stand beside that. `data-term` names the term of (7) that the step is about.
  */
 
 /** A step of a lesson. */
@@ -16,6 +16,8 @@ export interface Step {
   state: string;
   /** "run", a number of passes, or "". */
   solve: string;
+  /** `key:value` of an option, or "". */
+  beside: string;
   /** "data", "smoothness", "length" or "". */
   term: string;
 }
@@ -62,10 +64,10 @@ export async function energyTerms(): Promise<Node> {
 function parsed({ id, title }: (typeof LESSONS)[number], html: string): Lesson {
   const whole = fragment(html);
   const steps = [...whole.querySelectorAll("section")].map((section): Step => {
-    const { state = "", solve = "", term = "" } = section.dataset;
+    const { state = "", solve = "", beside = "", term = "" } = section.dataset;
     const text = document.createDocumentFragment();
     text.append(...section.childNodes);
-    return { text, state, solve, term };
+    return { text, state, solve, beside, term };
   });
   return { id, title, steps, question: whole.querySelector("details") };
 }

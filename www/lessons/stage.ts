@@ -9,6 +9,7 @@ import { settingsOf } from "../memory/held";
 import { targetOf } from "../memory/link";
 import { run, step as takeStep } from "../session";
 import { store } from "../store";
+import { goOn, goTo } from "../timeline/going";
 import type { Source } from "../worker/protocol";
 import type { Step } from "./lesson";
 
@@ -33,9 +34,38 @@ export async function stage(step: Step): Promise<void> {
   }
   const { source, started } = store.state;
   set = { setup, source, settings: settingsOf(store.state) };
-  if (started || store.state.running) return;
-  if (step.solve === "run") await run();
-  for (let pass = 0; pass < Number(step.solve) && mine === called; pass += 1) await takeStep("all");
+  if (!started && !store.state.running) {
+    if (step.solve === "run") await run();
+    for (let pass = 0; pass < Number(step.solve) && mine === called; pass += 1)
+      await takeStep("all");
+  }
+  if (!step.beside) return store.update({ beside: false });
+  await solved();
+  if (mine === called && set.source === store.state.source) await branch(step.beside);
+}
+
+/** Waits until nothing runs. */
+function solved(): Promise<void> {
+  return new Promise((done) => {
+    let stop = () => {};
+    stop = store.watch(
+      ({ running }) => [running],
+      ({ running }) => {
+        // The first time is within `watch`.
+        if (!running) void Promise.resolve().then(() => (stop(), done()));
+      },
+    );
+  });
+}
+
+/** Solves once more from the start with an option set otherwise, as a second line, and shows both. */
+async function branch(option: string): Promise<void> {
+  const { timeline, options } = store.state;
+  const [key = "", value = ""] = option.split(":");
+  if (!timeline) return;
+  await goTo({ line: 0, at: timeline.first });
+  store.update({ options: { ...options, [key]: value }, beside: true });
+  await goOn();
 }
 
 /** Whether the stage has this pair, set so, and nobody has changed it since. */

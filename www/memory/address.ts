@@ -1,6 +1,6 @@
 /**
- * The address of the page names the pair and the view: Back and Forward step through them, and a link opens what it
- * tells.
+ * The address of the page names the pair and how it is looked at: Back and Forward step through that, and a link opens what
+ * it tells. What is dragged (zoom, divider) is a step once it has come to rest.
  */
 
 import { announce, byId } from "../dom";
@@ -12,6 +12,7 @@ import { settingsOf } from "./held";
 import { addressOf, linkOf, targetOf, type Target } from "./link";
 import { isOwn, nameOf } from "./names";
 import { flush, resume } from "./remember";
+import { lookLike, USUAL_SIGHT } from "./sight";
 
 /** The address that is shown, or about to be. */
 let shown = "";
@@ -20,12 +21,17 @@ export function mountAddress(): void {
   // Links within the page scroll, and say nothing of pairs.
   addEventListener("popstate", () => void follow());
   store.watch(
-    ({ source, view, opening, frames, playing, lessonStep }) => [
-      ...[source, view, opening, frames, playing],
-      lessonStep,
+    ({ source, view, opening, frames, playing, lessonStep, split, ranges, viewParams }) => [
+      ...[source, view, opening, frames, playing, lessonStep],
+      ...[split?.left, split?.right, ranges, viewParams.palette],
     ],
-    ({ source, view, opening, playing }) => {
-      if (source && !opening && !playing) void tell(source, view);
+    tellNow,
+  );
+  store.watch(
+    ({ zoom, split }) => [zoom, split?.at],
+    () => {
+      clearTimeout(resting);
+      resting = setTimeout(tellNow, REST_MS);
     },
   );
   byId("share").addEventListener("click", () => void share());
@@ -37,12 +43,22 @@ export function mountAddress(): void {
   );
 }
 
-async function tell(source: Source, view: string): Promise<void> {
-  const own = addressOf(await nameOf(source), view);
+/** What moves no more for so long has come to rest, milliseconds. */
+const REST_MS = 400;
+let resting: ReturnType<typeof setTimeout> | undefined;
+
+function tellNow(): void {
+  const { source, opening, playing } = store.state;
+  if (source && !opening && !playing) void tell(source);
+}
+
+async function tell(source: Source): Promise<void> {
+  const name = await nameOf(source);
   const { state } = store;
+  const own = addressOf(name, state);
   const address = state.lessonStep ?? own;
   // Something else may have been opened while the name was made.
-  if (state.source !== source || state.view !== view || address === shown) return;
+  if (state.source !== source || address === shown) return;
   const first = shown === "";
   shown = address;
   if (following || first) history.replaceState(null, "", address);
@@ -78,6 +94,7 @@ export async function follow(): Promise<boolean> {
     store.update({ lessonStep: null });
     return target ? await lead(target) : false;
   } finally {
+    tellNow();
     // Names are made in between.
     setTimeout(() => (following = false), 50);
   }
@@ -85,19 +102,23 @@ export async function follow(): Promise<boolean> {
 
 /** Opens what a link asks for; whether it is there. */
 export async function lead(target: Target): Promise<boolean> {
-  const { name, view, setting, useless } = target;
+  const { name, view, setting, sight, useless } = target;
   const { source, catalogues } = store.state;
   const isOpen = source !== null && (await nameOf(source)) === name;
   const scene = catalogues?.scenes.some((one) => one.name === name);
   let there = isOpen;
   if (isOpen && !setting) {
     if (view) store.update({ view });
+    // An address without more is of the usual look.
+    if (!sight) lookLike(USUAL_SIGHT);
   } else if (setting) {
     there = await exactly(target);
   } else {
     there = (await resume(name, view ?? undefined)) || (scene === true && (await openScene(name)));
     if (there && view) store.update({ view });
   }
+  if (there && sight) lookLike(sight);
+  else if (there && setting) store.update({ split: null });
   const complaint = complaintOf(name, there, scene === true, useless);
   if (complaint) store.update({ message: complaint });
   return there;

@@ -2,6 +2,8 @@
  * A link to a pair as it is: `#columns/depth` names the sequence and the view, and after a `?` stand curves, camera,
  * options and what the view was set to, as far as they are not the usual ones.
  *
+ * How it is looked at beyond that (`sight.ts`) stands there, too, and may stand there alone.
+ *
  *     #blocks/anaglyph?c=c107,80,27~p10,10,90,12,50,70&f=320,159.5,119.5&o=preset:paper~mu:0.1&p=glasses:amber-blue&z=1,2
  *
  * Curves are given to a tenth of a pixel. Whatever a link says is checked against what the core offers; what cannot be
@@ -19,6 +21,7 @@ import type {
   Shape,
 } from "../worker/protocol";
 import type { Setting } from "./setting";
+import { KEYS, partsOf, sightOf, type Sight } from "./sight";
 
 /** What a link asks for. */
 export interface Target {
@@ -26,6 +29,8 @@ export interface Target {
   view: string | null;
   /** Everything that is set, where the link tells; `null` where it only names the pair. */
   setting: Partial<Setting> | null;
+  /** How it is looked at; `null` where the link does not tell. */
+  sight: Sight | null;
   /** Parts that cannot be used, in words. */
   useless: string[];
 }
@@ -34,8 +39,12 @@ const DEFAULT_PARAMS = store.state.viewParams;
 /** Corners of a freehand line: more than this is no curve that the page has drawn. */
 const MOST_POINTS = 4000;
 
-/** The part of an address after `#` that names a pair and a view. */
-export const addressOf = (name: string, view: string) => `#${encodeURIComponent(name)}/${view}`;
+/** The part of an address after `#` that names a pair and how it is looked at. */
+export function addressOf(name: string, state: Readonly<State>): string {
+  const parts = partsOf(state);
+  const place = `#${encodeURIComponent(name)}/${state.view}`;
+  return parts.length > 0 ? `${place}?${parts.join("&")}` : place;
+}
 
 /** The same with all that is set. */
 export function linkOf(name: string, state: Readonly<State>): string {
@@ -50,7 +59,7 @@ export function linkOf(name: string, state: Readonly<State>): string {
     p: pairs(
       Object.fromEntries(
         Object.entries(viewParams).filter(
-          ([key, value]) => DEFAULT_PARAMS[key as keyof ViewParams] !== value,
+          ([key, value]) => key !== "palette" && DEFAULT_PARAMS[key as keyof ViewParams] !== value,
         ),
       ),
     ),
@@ -58,7 +67,8 @@ export function linkOf(name: string, state: Readonly<State>): string {
   };
   // `c` without a value says that there is no curve.
   const given = Object.entries(parts).filter(([key, text]) => text !== "" || key === "c");
-  return `${addressOf(name, view)}?${given.map(([key, text]) => `${key}=${text}`).join("&")}`;
+  const all = [...given.map(([key, text]) => `${key}=${text}`), ...partsOf(state)];
+  return `#${encodeURIComponent(name)}/${view}?${all.join("&")}`;
 }
 
 const short = (value: number) => String(Number(value.toPrecision(7)));
@@ -89,7 +99,7 @@ export function targetOf(hash: string, catalogues: Catalogues): Target | null {
   const useless: string[] = [];
   const view = VIEWS.find(({ id }) => id === viewId)?.id ?? null;
   if (viewId && !view) useless.push(`a view called “${viewId.slice(0, 40)}”`);
-  if (rest.length === 0) return { name, view, setting: null, useless };
+  if (rest.length === 0) return { name, view, setting: null, sight: null, useless };
 
   const query = new Map(
     rest
@@ -100,6 +110,11 @@ export function targetOf(hash: string, catalogues: Catalogues): Target | null {
         return [key, decoded(value.join("="))] as const;
       }),
   );
+  const looked = KEYS.some((key) => query.has(key));
+  const sight = looked ? sightOf(query, catalogues, useless) : null;
+  if (looked && [...query.keys()].every((key) => KEYS.includes(key))) {
+    return { name, view, setting: null, sight, useless };
+  }
   const setting: Partial<Setting> = { scales: [], viewParams: DEFAULT_PARAMS, options: {} };
   const use = <K extends keyof Setting>(
     key: string,
@@ -118,7 +133,9 @@ export function targetOf(hash: string, catalogues: Catalogues): Target | null {
   use("o", "its options", "options", (text) => optionsOf(text, catalogues));
   use("p", "how its view is set", "viewParams", (text) => paramsOf(text, catalogues));
   use("z", "its depth factors", "scales", scalesOf);
-  return { name, view, setting, useless };
+  // Older links have the palette among the settings of the view.
+  const palette = query.has("l") ? sight?.palette : setting.viewParams?.palette;
+  return { name, view, setting, sight: sight && { ...sight, palette: palette! }, useless };
 }
 
 function decoded(text: string): string {

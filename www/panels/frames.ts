@@ -4,14 +4,18 @@ import { byId, icon, make } from "../dom";
 import { chooseFrom, keep } from "../intake/reel";
 import { inUse, openBoth, swap } from "../intake/slots";
 import { takeAll } from "../intake/take";
+import { ENDINGS, takeSaid } from "../intake/truth";
 import { ask } from "../session";
 import { store, type State } from "../store";
 
 // Formats that no browser has a media type for, by their endings.
-const ACCEPT = "image/*,video/*,.pnm,.pgm,.ppm,.pbm,.pam,.mpo,.heic,.heif,.jxl,.mkv,.mov";
+const ACCEPT = `${ENDINGS},image/*,video/*,.pnm,.pgm,.ppm,.pbm,.pam,.mpo,.heic,.heif,.jxl,.mkv,.mov`;
 
 export function mountFrames(): void {
-  store.watch(({ frames, slots, names, source }) => [frames, slots, names, source], render);
+  store.watch(
+    ({ frames, slots, names, source, truth }) => [frames, slots, names, source, truth],
+    render,
+  );
   mountSources();
   mountPopover();
   mountDrop();
@@ -46,6 +50,18 @@ function mountSources(): void {
     // The same file may be chosen again.
     input.value = "";
   });
+  const truth = byId<HTMLInputElement>("truth-file");
+  truth.accept = `${ENDINGS},.png`;
+  truth.addEventListener("change", () => {
+    void takeSaid([...(truth.files ?? [])]);
+    truth.value = "";
+  });
+  store.watch(
+    ({ source, slots }) => [source, slots],
+    (state) => {
+      byId("truth-pick").hidden = !inUse(state);
+    },
+  );
   byId("camera-open").addEventListener("click", async () => {
     const loaded = await ask("Opening the camera", () => import("../intake/camera"));
     await loaded?.openCamera((film) => {
@@ -104,8 +120,16 @@ function explain(state: Readonly<State>, own: boolean): string {
     return `The ${missing} frame is still missing. Until it is there, the stage keeps ${state.title || "what it shows"}.`;
   }
   return inUse(state)
-    ? "These are your frames. Draw or find a curve on each thing that moves by itself, then run."
+    ? `These are your frames. Draw or find a curve on each thing that moves by itself, then run. ${truthNote(state)}`
     : `These two are not in use; the stage keeps ${state.title}.`;
+}
+
+/** What is known to be true of them. */
+function truthNote({ source, truth }: Readonly<State>): string {
+  if (!truth || source?.kind !== "files" || !source.truth) {
+    return "If their true motion, depth or labels are known, drop those files, too: scores and maps of errors follow.";
+  }
+  return `The truth comes from ${source.truth.map(({ name }) => name).join(", ")}.`;
 }
 
 function card(side: 0 | 1, state: Readonly<State>, own: boolean): HTMLElement {

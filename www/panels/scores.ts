@@ -1,5 +1,5 @@
 /**
- * How far from the truth, beside the baseline: only for sequences whose truth is known.
+ * How far from the truth, beside the baseline: as far as the truth is known.
  *
  * Horn–Schunck finds image motion and nothing else, so only two rows have a figure for it.
  */
@@ -7,7 +7,7 @@
 import { byId, make } from "../dom";
 import { fixed, percent } from "../format";
 import { store, type State } from "../store";
-import type { Scores } from "../worker/protocol";
+import type { PartScores } from "../worker/protocol";
 
 interface Row {
   name: string;
@@ -26,6 +26,9 @@ function refresh({ scores, started }: Readonly<State>): void {
   byId("scores-panel").hidden = !scores || !started;
   if (!scores || !started) return;
   const { found, baseline } = scores;
+  const regions = found.iou
+    .map((iou, k) => regionLine(found, iou, k))
+    .filter((_, k) => known(found, k));
   byId("scores").replaceChildren(
     table(
       ["", "Found", "Horn–Schunck"],
@@ -47,20 +50,23 @@ function refresh({ scores, started }: Readonly<State>): void {
         {
           name: "Labels wrong",
           meaning: "Share of pixels in the wrong region",
-          found: percent(found.labels_wrong),
+          found: found.labels_wrong === null ? "–" : percent(found.labels_wrong),
           baseline: "–",
         },
-      ].map(line),
+      ]
+        .filter(({ found: own }) => own !== "–")
+        .map(line),
     ),
-    table(
-      ["Region", "IoU", "Depth", "flat", "T", "ω"],
-      found.iou.map((iou, k) => regionLine(found, iou, k)),
-    ),
-    make(
-      "p",
-      { class: "note" },
-      "IoU: overlap of region and truth. Depth: mean error once the region's scale is aligned, beside that of a flat guess. T: angle between directions. ω: difference per frame.",
-    ),
+    ...(regions.length > 0
+      ? [
+          table(["Region", "IoU", "Depth", "flat", "T", "ω"], regions),
+          make(
+            "p",
+            { class: "note" },
+            "IoU: overlap of region and truth. Depth: mean error once the region's scale is aligned, beside that of a flat guess. T: angle between directions. ω: difference per frame.",
+          ),
+        ]
+      : []),
   );
 }
 
@@ -74,7 +80,11 @@ function line({ name, meaning, found, baseline, better }: Row): HTMLElement {
   );
 }
 
-function regionLine(found: Scores, iou: number | null, k: number): HTMLElement {
+/** Whether anything is known of a region. */
+const known = ({ iou, depth_error, translation_angle, rotation_error }: PartScores, k: number) =>
+  [iou, depth_error, translation_angle, rotation_error].some((list) => (list[k] ?? null) !== null);
+
+function regionLine(found: PartScores, iou: number | null, k: number): HTMLElement {
   const turned = found.rotation_error[k];
   const cells = [
     iou === null ? "–" : fixed(iou, 2),

@@ -21,7 +21,7 @@ export function mountViewbar(): void {
     ({ view, viewParams, split, ranges }) => [view, viewParams, split?.left, split?.right, ranges],
     () => void look(),
   );
-  // One setting may set another.
+  // One setting may set another, and so may a link.
   store.watch(
     ({ viewParams }) => [viewParams],
     ({ viewParams }) => {
@@ -29,6 +29,9 @@ export function mountViewbar(): void {
         "[type=checkbox]",
       )) {
         box.checked = viewParams[box.id.replace("setting-", "") as keyof ViewParams] === true;
+      }
+      for (const select of byId("view-choices").querySelectorAll("select")) {
+        select.value = String(viewParams[select.id.replace("setting-", "") as keyof ViewParams]);
       }
     },
   );

@@ -5,6 +5,7 @@
 
 import { present, recorded } from "../memory/history";
 import { open, restore } from "../session";
+import { FITTING } from "../stage/place";
 import { store } from "../store";
 import { sceneOf } from "../scenes";
 import { entered, type Timeline } from "../timeline/line";
@@ -17,13 +18,16 @@ const BEAT_MS = 220;
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
+/** Of a built-in sequence all is known. */
+const WHOLE = { labels: true, depth: true, flow: true, occlusion: true };
+
 /** Shows a recording from its first picture on; resolves when the last is there. */
 export async function play(recording: Recording): Promise<void> {
   const source = sceneOf(recording.name);
   const { title, lesson, width, height, camera, shapes } = recording;
   store.update({
-    ...{ source, title, lesson, width, height, camera, shapes, truth: true },
-    ...{ view: "depth", started: true, playing: true },
+    ...{ source, title, lesson, width, height, camera, shapes, truth: WHOLE },
+    ...{ view: "depth", started: true, playing: true, zoom: FITTING },
   });
   await showAll(recording, source);
 }

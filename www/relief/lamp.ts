@@ -9,7 +9,8 @@ import { make } from "../dom";
 
 /** What the light shines on. */
 interface Lit {
-  readonly canvas: HTMLCanvasElement;
+  /** Whether a pointer that came down there is on it. */
+  has(target: EventTarget | null): boolean;
   /** Where light comes from: x to the right, y up, z towards the eye; of length 1. */
   lamp: [number, number, number];
 }
@@ -89,7 +90,7 @@ export function mountLamp(place: HTMLElement, lit: Lit): Lamp {
   place.addEventListener(
     "pointerdown",
     (event) => {
-      if (event.shiftKey && event.target === lit.canvas) take(event, place);
+      if (event.shiftKey && lit.has(event.target)) take(event, place);
     },
     { capture: true },
   );

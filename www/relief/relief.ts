@@ -1,56 +1,105 @@
 /**
- * Depth as a surface to turn in one's hands.
+ * Depth as a surface to turn in one's hands, or two of them, of the timeline's two lines, under one light.
  *
  * three.js is fetched the first time the view is opened; nothing is drawn while it is hidden, and only
  * when something has changed. The surface turns about its middle by drag, pinch, or arrow keys; the light is dragged
- * by its handle, or with Shift anywhere. A finger turns it only after a tap, so that the page can be scrolled.
+ * by its handle, or with Shift anywhere. A finger turns it only after a tap, so that the page can be scrolled. Of two
+ * surfaces each turns with the other.
  */
 
-import { announce, byId } from "../dom";
+import { announce, byId, make } from "../dom";
 import { onMesh } from "../looking";
 import { takePicture } from "../stage/snapshot";
 import { store } from "../store";
+import { namesOf } from "../timeline/sentences";
+import { placeOf } from "../timeline/going";
 import type { MeshData } from "../worker/protocol";
+import { mountBeside } from "./beside";
 import { mountLamp, type Lamp } from "./lamp";
 import type { Scenery, Surface } from "./scenery";
 import { mountTouch } from "./touch";
 
-let scenery: Scenery | null = null;
+/** A surface in its place. */
+interface Pane {
+  place: HTMLElement;
+  name: HTMLElement;
+  scenery: Scenery;
+}
+
+/** The first is of what is shown, or of the first line; the second of the second line. */
+let panes: Pane[] = [];
 let lamp: Lamp | null = null;
 let pending: MeshData | null = null;
 
 export function mountRelief(): void {
+  const beside = mountBeside((mesh, line) => panes[line]?.scenery.setMesh(mesh));
   onMesh((mesh) => {
-    if (scenery) scenery.setMesh(mesh);
+    const { state } = store;
+    if (panes.length > 0) panes[state.beside ? placeOf(state).line : 0]!.scenery.setMesh(mesh);
     else pending = mesh;
+    beside(mesh.deepened);
   });
-  takePicture("relief", async () => scenery?.picture() ?? null);
+  takePicture("relief", () => picture());
   store.watch(
-    ({ view }) => [view],
+    ({ view, beside }) => [view, beside],
     ({ view }) => {
       if (view === "relief") void open();
     },
   );
   store.watch(({ frames, viewParams }) => [frames, viewParams.material, viewParams.ghosts], dress);
+  store.watch(({ beside, timeline }) => [beside, timeline], arrange);
 }
 
 let opening: Promise<void> | null = null;
+/** Makes another pane, once three.js is there. */
+let add = () => {};
 
 async function open(): Promise<void> {
   opening ??= (async () => {
     const { Scenery } = await import("./scenery");
-    const made = new Scenery(byId("relief"), () => lamp?.follow());
-    scenery = made;
-    lamp = mountLamp(byId("relief"), made);
-    mountTouch(byId("relief"), made.canvas);
+    const root = byId("relief");
+    const pane = (): Pane => {
+      const name = make("p", { class: "relief-name" });
+      const place = make("div", { class: "relief-pane" }, name);
+      root.append(place);
+      const scenery: Scenery = new Scenery(
+        place,
+        () => lamp?.follow(),
+        () => panes.forEach((other) => other.scenery !== scenery && other.scenery.follow(scenery)),
+      );
+      return { place, name, scenery };
+    };
+    add = () => {
+      const made = pane();
+      panes.push(made);
+      mountKeys(made.scenery);
+      if (panes[0] !== made) made.scenery.lamp = panes[0]!.scenery.lamp;
+    };
+    add();
+    lamp = mountLamp(root, {
+      has: (target) => panes.some(({ scenery }) => scenery.canvas === target),
+      get lamp() {
+        return panes[0]!.scenery.lamp;
+      },
+      set lamp(from) {
+        for (const { scenery } of panes) scenery.lamp = from;
+      },
+    });
+    mountTouch(root);
+    arrange();
     dress();
-    if (pending) made.setMesh(pending);
+    if (pending) panes[0]!.scenery.setMesh(pending);
     pending = null;
-    mountKeys(made);
   })();
   try {
     await opening;
-    scenery?.resize();
+    if (store.state.beside && panes.length < 2) {
+      add();
+      arrange();
+      dress();
+      panes[1]!.scenery.follow(panes[0]!.scenery);
+    }
+    panes.forEach(({ scenery }) => scenery.resize());
   } catch (error) {
     opening = null;
     store.update({
@@ -60,11 +109,38 @@ async function open(): Promise<void> {
   }
 }
 
+/** One pane or both, each with the name of what it shows. */
+function arrange(): void {
+  const { beside, timeline, catalogues } = store.state;
+  const names = beside && timeline ? namesOf(timeline, catalogues?.options ?? []) : [];
+  byId("relief").classList.toggle("beside", beside);
+  for (const [i, { place, name, scenery }] of panes.entries()) {
+    place.hidden = i > 0 && !beside;
+    name.textContent = names[i] ?? "";
+    scenery.resize();
+  }
+}
+
 function dress(): void {
   const { frames, viewParams } = store.state;
-  if (!scenery || !frames) return;
-  scenery.setTexture(frames[0]);
-  scenery.setMaterial(viewParams.material as Surface, viewParams.ghosts);
+  if (!frames) return;
+  for (const { scenery } of panes) {
+    scenery.setTexture(frames[0]);
+    scenery.setMaterial(viewParams.material as Surface, viewParams.ghosts);
+  }
+}
+
+/** The surface, or both side by side. */
+async function picture(): Promise<Blob | null> {
+  const [first, second] = panes;
+  if (!first) return null;
+  if (!second || second.place.hidden) return first.scenery.picture();
+  const canvases = [first, second].map(({ scenery }) => scenery.drawnCanvas());
+  const wide = canvases[0]!.width;
+  const both = make("canvas", { width: 2 * wide, height: canvases[0]!.height });
+  const context = both.getContext("2d")!;
+  canvases.forEach((canvas, i) => context.drawImage(canvas, i * wide, 0));
+  return new Promise((done) => both.toBlob(done, "image/png"));
 }
 
 const TURN = Math.PI / 36;

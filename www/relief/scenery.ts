@@ -55,13 +55,15 @@ export class Scenery {
   private texture: CanvasTexture | null = null;
   private dress: [Surface, boolean] = ["textured", true];
   private waiting = false;
+  private following = false;
   /** Nobody has turned the surface or come closer: the eye keeps all of it in view. */
   private atHome = true;
 
-  /** `drawn` is called whenever the picture has changed. */
+  /** `drawn` is called whenever the picture has changed, `moved` when somebody has turned the surface or come closer. */
   constructor(
     private readonly place: HTMLElement,
     private readonly drawn: () => void,
+    private readonly moved: () => void,
   ) {
     this.renderer = new WebGLRenderer({
       antialias: true,
@@ -82,7 +84,10 @@ export class Scenery {
     this.controls.enablePan = false;
     this.controls.minDistance = NEAREST;
     this.controls.maxDistance = FARTHEST;
-    this.controls.addEventListener("change", () => this.invalidate());
+    this.controls.addEventListener("change", () => {
+      this.invalidate();
+      this.tell();
+    });
     // It would keep fingers from scrolling the page; `touch.ts` says when it may.
     this.canvas.style.removeProperty("touch-action");
     this.controls.addEventListener("start", () => (this.atHome = false));
@@ -171,6 +176,22 @@ export class Scenery {
     this.invalidate();
   }
 
+  /** Looks from where another looks from. */
+  follow({ camera, atHome }: Scenery): void {
+    if (this.place.hidden) return;
+    this.atHome = atHome;
+    this.following = true;
+    this.camera.position.copy(camera.position);
+    this.controls.update();
+    this.following = false;
+    this.invalidate();
+  }
+
+  /** Who follows this one hears of it, unless it follows itself. */
+  private tell(): void {
+    if (!this.following && !this.atHome) this.moved();
+  }
+
   turn(across: number, down: number): void {
     this.atHome = false;
     const seat = new Spherical().setFromVector3(this.camera.position);
@@ -189,6 +210,7 @@ export class Scenery {
   home(): void {
     this.atHome = true;
     this.sit(new Spherical(this.distance(), FRONT.phi, FRONT.theta));
+    if (!this.following) this.moved();
   }
 
   /** Places of some of the vertices, before the surface is moved to its middle. */
@@ -236,6 +258,12 @@ export class Scenery {
     this.invalidate();
   }
 
+  /** The canvas, as it is now. */
+  drawnCanvas(): HTMLCanvasElement {
+    this.render();
+    return this.canvas;
+  }
+
   picture(): Promise<Blob | null> {
     this.render();
     return new Promise((resolve) => this.canvas.toBlob(resolve, "image/png"));
@@ -257,7 +285,7 @@ export class Scenery {
   }
 
   private render(): void {
-    if (this.place.hidden) return;
+    if (this.place.clientWidth === 0) return;
     this.renderer.render(this.scene, this.camera);
     this.drawn();
   }

@@ -2,7 +2,7 @@
 
 import { make } from "../dom";
 
-export function mountTouch(place: HTMLElement, canvas: HTMLCanvasElement): void {
+export function mountTouch(place: HTMLElement): void {
   const note = make("p", { class: "tap", "aria-hidden": "true" }, "Tap to turn");
   place.append(note);
   const hold = (held: boolean) => place.classList.toggle("held", held);
@@ -11,11 +11,13 @@ export function mountTouch(place: HTMLElement, canvas: HTMLCanvasElement): void 
     "pointerdown",
     (event) => {
       const scrolls = event.pointerType === "touch" && !place.classList.contains("held");
-      if (scrolls && event.target === canvas) event.stopPropagation();
+      if (scrolls && event.target instanceof HTMLCanvasElement) event.stopPropagation();
     },
     { capture: true },
   );
-  canvas.addEventListener("click", () => hold(true));
+  place.addEventListener("click", ({ target }) => {
+    if (target instanceof HTMLCanvasElement) hold(true);
+  });
   document.addEventListener("pointerdown", (event) => {
     if (!place.contains(event.target as Node)) hold(false);
   });

@@ -24,13 +24,13 @@ export function mountDivider(): void {
   }
   store.watch(({ split, truth }) => [split, truth], show);
   store.watch(
-    ({ view, viewParams, truth }) => [view, viewParams.motion, truth],
+    ({ view, viewParams, truth }) => [view, viewParams.motion, viewParams.error, truth],
     (state) => {
-      const { split, truth } = state;
+      const { split } = state;
       if (!split) return;
       // The view that is chosen takes the right side.
       const right = sideOfView(state);
-      const known = truth || !split.left.startsWith("truth");
+      const known = sidesFor(state).some(({ id }) => id === split.left);
       const left = known ? split.left : "frame first";
       store.update({ split: right === null ? null : { left, right, at: split.at } });
     },
@@ -65,7 +65,8 @@ function show(state: Readonly<State>): void {
   const groups = [...new Set(all.map(({ whose }) => whose))];
   for (const name of SELECTS) {
     const select = byId<HTMLSelectElement>(`side-${name}`);
-    if (select.options.length !== all.length) {
+    const ids = [...select.options].map(({ value }) => value);
+    if (ids.join() !== all.map(({ id }) => id).join()) {
       select.replaceChildren(
         ...groups.map((label) =>
           make(

@@ -27,18 +27,18 @@ function show(state: Readonly<State>): void {
   // Both halves of a divided stage may have the same.
   const seen = new Set<string>();
   const drawn = awaited(state) ? [] : state.legends.slice(0, wanted.length);
-  const elements = drawn.flatMap((legend) => {
+  const elements = drawn.flatMap((legend, i) => {
     const text = JSON.stringify(legend);
     if (!legend || seen.has(text)) return [];
     seen.add(text);
-    return [element(legend, comparing(state))];
+    return [element(legend, wanted[i]![1], comparing(state))];
   });
-  const holding = document.activeElement?.id === "hold-range";
+  const held = document.activeElement?.id ?? "";
   place.replaceChildren(...elements);
-  if (holding) document.getElementById("hold-range")?.focus();
+  if (held.startsWith("hold-")) document.getElementById(held)?.focus();
 }
 
-function element(legend: Legend, compared: boolean): HTMLElement {
+function element(legend: Legend, kind: string, compared: boolean): HTMLElement {
   const { form, quantity, unit } = legend;
   const depth = quantity === "Depth";
   const title =
@@ -68,26 +68,34 @@ function element(legend: Legend, compared: boolean): HTMLElement {
       break;
   }
   // Beside the truth the range is the truth's.
-  if (legend.hold && !compared) figure.append(holder(legend.hold));
+  if (legend.hold && (legend.hold.most !== null || !compared)) figure.append(holder(legend, kind));
   return figure;
 }
 
 /** Holds the range as it is, so that passes can be compared, or lets it follow what is found. */
-function holder({ span, speed }: NonNullable<Legend["hold"]>): HTMLElement {
+function holder({ hold }: Legend, kind: string): HTMLElement {
   const { ranges } = store.state;
-  const held = span ? ranges.span !== null : ranges.speed !== null;
+  const { span, speed, most } = hold!;
+  const held = span
+    ? ranges.span !== null
+    : speed
+      ? ranges.speed !== null
+      : ranges.most[kind] !== undefined;
   const button = make(
     "button",
-    { type: "button", id: "hold-range", "aria-pressed": String(held) },
+    { type: "button", id: `hold-${kind}`, "aria-pressed": String(held) },
     "Hold",
     make("span", { class: "visually-hidden" }, " the range"),
   );
   button.title = held ? "The range is held; press to let it follow" : "Hold this range of colours";
   button.addEventListener("click", () => {
+    const { [kind]: _, ...others } = ranges.most;
     store.update({
       ranges: span
         ? { ...ranges, span: held ? null : span }
-        : { ...ranges, speed: held ? null : speed },
+        : speed
+          ? { ...ranges, speed: held ? null : speed }
+          : { ...ranges, most: held || most === null ? others : { ...others, [kind]: most } },
     });
   });
   return button;
@@ -119,14 +127,15 @@ function wheel({ colours, marks }: Legend): HTMLElement {
   );
 }
 
-function keys({ colours }: Legend): HTMLElement {
+function keys({ colours, names }: Legend): HTMLElement {
   return make(
     "ul",
     {},
     ...colours.map((colour, label) => {
       const chip = make("span", { class: "chip", "aria-hidden": "true" });
       chip.style.background = colour;
-      return make("li", {}, chip, label === 0 ? "Backgr." : `Curve ${label}`);
+      const region = label === 0 ? "Backgr." : `Curve ${label}`;
+      return make("li", {}, chip, names[label] ?? region);
     }),
   );
 }

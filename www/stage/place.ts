@@ -41,6 +41,10 @@ const LARGEST_PIXEL = 40;
 /** Room for a picture's name above it, in CSS pixels; the stylesheet's line of text is as high. */
 export const CAPTION_HEIGHT = 26;
 
+/** On a narrow stage the zoom's bar has the room below the picture, in CSS pixels; elsewhere it lies in the corner. */
+const NARROW = 560;
+const BAR = 52;
+
 let present: Pane[] = [];
 
 /** Where the pictures lie that are on the stage now. */
@@ -59,12 +63,13 @@ export function setPanes(panes: Pane[]): void {
 export function panes(stage: Box, frame: Box, count: number, caption: number): Pane[] {
   const margin = Math.min(16, stage.width / 40);
   const gap = 12;
+  const bar = stage.width < NARROW ? BAR : 0;
   let best: { scale: number; columns: number } = { scale: 0, columns: 1 };
   for (let columns = 1; columns <= count; columns++) {
     const rows = Math.ceil(count / columns);
     const width = (stage.width - 2 * margin - (columns - 1) * gap) / columns / frame.width;
     const height =
-      (stage.height - 2 * margin - (rows - 1) * gap - rows * caption) / rows / frame.height;
+      (stage.height - bar - 2 * margin - (rows - 1) * gap - rows * caption) / rows / frame.height;
     const scale = Math.min(width, height);
     if (scale > best.scale) best = { scale, columns };
   }
@@ -77,7 +82,8 @@ export function panes(stage: Box, frame: Box, count: number, caption: number): P
     const inRow = Math.min(columns, count - row * columns);
     return (stage.width - inRow * width - (inRow - 1) * gap) / 2;
   };
-  const top = (stage.height - rows * height - (rows - 1) * gap) / 2;
+  const free = stage.height - rows * height - (rows - 1) * gap;
+  const top = Math.min(free / 2, Math.max(margin, free - bar));
   return Array.from({ length: count }, (_, i) => {
     const row = Math.floor(i / columns);
     const corner = {

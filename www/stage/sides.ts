@@ -5,7 +5,7 @@
  */
 
 import type { State } from "../store";
-import type { Whose } from "../worker/protocol";
+import type { KnownParts, Whose } from "../worker/protocol";
 
 export interface Side {
   id: string;
@@ -23,9 +23,17 @@ const KINDS = {
   occlusion: "occlusion",
   confidence: "confidence",
   arrows: "arrows",
+  residual: "residual",
 } as const;
 
 type Kind = keyof typeof KINDS;
+
+/** What errors are of, and what each asks of the core. */
+export const ERRORS = {
+  "error-flow": "motion",
+  "error-depth": "depth",
+  "error-labels": "labels",
+} as const;
 
 const side = (of: Whose, whose: string, kind: Kind): Side => ({
   id: `${of} ${kind}`,
@@ -49,13 +57,34 @@ export const SIDES: Side[] = [
     side("truth", "Truth", kind),
   ),
   ...(["flow", "arrows"] as const).map((kind) => side("horn-schunck", "Horn–Schunck", kind)),
+  ...Object.entries(ERRORS).map(([kind, what]) => ({
+    ...{ id: `found ${kind}`, label: `Error: ${what}`, whose: "Error" },
+    picture: ["found", kind] as [Whose, string],
+  })),
+  {
+    ...{ id: "horn-schunck error-flow", label: "Error: Horn–Schunck’s motion", whose: "Error" },
+    picture: ["horn-schunck", "error-flow"],
+  },
 ];
 
 export const sideOf = (id: string): Side => SIDES.find((one) => one.id === id) ?? SIDES[0]!;
 
 /** Those that make sense for what is open. */
 export const sidesFor = ({ truth }: Readonly<State>): Side[] =>
-  SIDES.filter(({ picture }) => truth || picture?.[0] !== "truth");
+  SIDES.filter(({ picture }) => {
+    if (!picture) return true;
+    const [of, kind] = picture;
+    const error = kind.startsWith("error-");
+    return (of !== "truth" && !error) || tells(truth, error ? kind.slice(6) : kind);
+  });
+
+/** Kinds of which there are maps of errors. */
+export const TOLD = ["flow", "depth", "labels"];
+
+/** Whether the truth has what such a picture shows. */
+export function tells(truth: KnownParts | null, kind: string): boolean {
+  return truth !== null && truth[kind === "arrows" ? "flow" : (kind as keyof KnownParts)];
+}
 
 /** The side that shows what a view shows; `null` for one that is no flat picture of the frame's size. */
 export function sideOfView({ view, viewParams }: Readonly<State>): string | null {
@@ -68,7 +97,10 @@ export function sideOfView({ view, viewParams }: Readonly<State>): string | null
     case "labels":
     case "confidence":
     case "occlusion":
+    case "residual":
       return `found ${view}`;
+    case "error":
+      return `found ${viewParams.error}`;
     default:
       return null;
   }

@@ -24,7 +24,7 @@ import {
 } from "./place";
 import { sideOf } from "./sides";
 import { drawSketch, sketchChanged } from "./tools";
-import { presentZoom, showZoom, zoomChanged } from "./zoom";
+import { presentZoom, showZoom } from "./zoom";
 
 const FLICKER_MS = 450;
 
@@ -66,10 +66,13 @@ export function mountStage(): void {
     () => upper.invalidate(),
   );
   sketchChanged(() => upper.invalidate());
-  zoomChanged(() => {
-    lower.invalidate();
-    upper.invalidate();
-  });
+  store.watch(
+    ({ zoom }) => [zoom],
+    () => {
+      lower.invalidate();
+      upper.invalidate();
+    },
+  );
   store.watch(
     ({ view, pictured, catalogues, width, viewParams, split }) => [
       split === null,

@@ -28,23 +28,14 @@ const NOTCH = 1.3;
 /** Where a frame's own pixels are no larger than it fits, a double click comes so much nearer. */
 const CLOSER = 3;
 
-let zoom: Zoom = FITTING;
-let changed: () => void = () => {};
+export const presentZoom = (): Zoom => store.state.zoom;
 
-export const presentZoom = (): Zoom => zoom;
-export const zoomChanged = (listener: () => void): void => {
-  changed = listener;
-};
-
-export function setZoom(next: Zoom): void {
-  zoom = next;
-  byId("stage").dataset["zoomed"] = String(zoom.factor > 1);
-  changed();
-}
+const setZoom = (zoom: Zoom) => store.update({ zoom });
 
 /** Brings a pixel of the frame into sight. */
 export function bringIn([x, y]: Point): void {
   const { width, height } = store.state;
+  const { zoom } = store.state;
   const [mx, my] = zoom.middle;
   const half = 0.45 / zoom.factor;
   const held = (share: number, middle: number) =>
@@ -56,7 +47,7 @@ export function bringIn([x, y]: Point): void {
 function zoomTo(factor: number, place: Point = middleOfCell()): void {
   const { state } = store;
   if (!state.frames) return;
-  setZoom(about(stagePane(), state, zoom, place, factor));
+  setZoom(about(stagePane(), state, state.zoom, place, factor));
 }
 
 const middleOfCell = (): Point => {
@@ -65,18 +56,18 @@ const middleOfCell = (): Point => {
 };
 
 /** The factor at which a pixel of the frame is one of CSS. */
-const ownPixels = () => zoom.factor / stagePane().scale;
+const ownPixels = () => presentZoom().factor / stagePane().scale;
 
 /** Whether the key was one for the zoom. */
 export function zoomKey(key: string): boolean {
   switch (key) {
     case "+":
     case "=":
-      zoomTo(zoom.factor * STEP);
+      zoomTo(presentZoom().factor * STEP);
       return true;
     case "-":
     case "_":
-      zoomTo(zoom.factor / STEP);
+      zoomTo(presentZoom().factor / STEP);
       return true;
     case "0":
       setZoom(FITTING);
@@ -96,13 +87,13 @@ export function mountZoom(): void {
     (event) => {
       event.preventDefault();
       const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 33 : 1;
-      zoomTo(zoom.factor * NOTCH ** ((-event.deltaY * lines) / 100), placeOf(event));
+      zoomTo(presentZoom().factor * NOTCH ** ((-event.deltaY * lines) / 100), placeOf(event));
     },
     { passive: false },
   );
   overlay.addEventListener("dblclick", (event) => {
     if (store.state.view === "curves" && store.state.tool !== "select") return;
-    if (zoom.factor > 1) setZoom(FITTING);
+    if (presentZoom().factor > 1) setZoom(FITTING);
     else zoomTo(ownPixels() > 1.2 ? ownPixels() : CLOSER, placeOf(event));
   });
   mountDrag(overlay);
@@ -110,8 +101,10 @@ export function mountZoom(): void {
   byId("zoom-out").addEventListener("click", () => zoomKey("-"));
   byId("zoom-fit").addEventListener("click", () => zoomKey("0"));
   store.watch(
-    ({ source, width, height }) => [source, width, height],
-    () => setZoom(FITTING),
+    ({ zoom }) => [zoom],
+    ({ zoom }) => {
+      byId("stage").dataset["zoomed"] = String(zoom.factor > 1);
+    },
   );
 }
 
@@ -120,7 +113,7 @@ export function showZoom(): void {
   const scale = stagePane().scale;
   byId("zoom-level").textContent = percent(scale, 0);
   for (const id of ["zoom-out", "zoom-fit"]) {
-    byId<HTMLButtonElement>(id).disabled = zoom.factor <= 1;
+    byId<HTMLButtonElement>(id).disabled = presentZoom().factor <= 1;
   }
 }
 
@@ -164,7 +157,7 @@ function mountDrag(overlay: HTMLCanvasElement): void {
 /** What lay under the fingers stays under them. */
 function follow(before: Point[], after: Point[]): void {
   const pane = stagePane();
-  const { width, height } = store.state;
+  const { width, height, zoom } = store.state;
   const from = meanOf(before);
   const to = meanOf(after);
   const spread = (points: Point[], [x, y]: Point) =>

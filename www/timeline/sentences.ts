@@ -2,7 +2,7 @@
 
 import { count, number, percent } from "../format";
 import { endOf, type Kept, type Line, type Timeline } from "./line";
-import type { OptionValues, Report } from "../worker/protocol";
+import type { OptionEntry, OptionValues, Report } from "../worker/protocol";
 
 type Last = NonNullable<Report["last"]>;
 
@@ -25,7 +25,7 @@ const STAGES: Record<Last["stage"], [did: string, from: string]> = {
     "(7), by Gauss–Newton; labels by cheapest cuts",
   ],
   steps: [
-    "depth was looked for pixel by pixel where a smooth relief fails",
+    "depth was found pixel by pixel where a smooth relief fails",
     "ψ of (7) under every depth, neighbours kept alike",
   ],
   descent: [
@@ -48,11 +48,16 @@ export function passSentence(
   if (last.taken_back) {
     return `${parted}Pass ${at}${scale}: ${did}; that raised (7), so labels, motions and relief were put back, and the scale is done with.`;
   }
+  if (last.stage === "steps" && !last.adopted) {
+    return `${parted}Pass ${at}${scale}: depth pixel by pixel would explain no region better, so nothing was changed. From ${from}.`;
+  }
   return `${parted}Pass ${at}${scale}: ${did}; ${sides(last)}. From ${from}.`;
 }
 
-function sides({ changed, stage }: Last): string {
-  if (stage === "steps") return "no label changed";
+function sides({ changed, stage, adopted }: Last): string {
+  if (stage === "steps") {
+    return adopted === 1 ? "1 region took it" : `${adopted} regions took it`;
+  }
   if (changed === 0) return "no pixel changed sides";
   return changed === 1 ? "1 pixel changed sides" : `${count(changed)} pixels changed sides`;
 }
@@ -102,6 +107,30 @@ export function differences(
     JSON.stringify((options as Record<string, unknown>)[key] ?? null);
   const names = labels.filter(({ key }) => value(one, key) !== value(other, key));
   return names.map(({ label }) => label).join(", ");
+}
+
+/** What each of two lines is called, with the settings that tell them apart. */
+export function namesOf(timeline: Timeline, options: OptionEntry[]): string[] {
+  const set = timeline.lines.map(
+    (line) => (line.passes.at(-1)?.pass.setup.options ?? {}) as Record<string, unknown>,
+  );
+  const apart = options.filter(({ key }) => new Set(set.map((one) => shown(one[key]))).size > 1);
+  return timeline.lines.map((line, i) => {
+    const values = apart.map((entry) => `${entry.label.toLowerCase()} ${valueOf(entry, set[i]!)}`);
+    return [lineName(timeline, line, i > 0), values.join(", ")].filter(Boolean).join(": ");
+  });
+}
+
+const shown = (value: unknown) => JSON.stringify(value ?? null);
+
+function valueOf(entry: OptionEntry, set: Record<string, unknown>): string {
+  const preset = String(set["preset"] ?? "best") as keyof OptionEntry["defaults"];
+  const value = set[entry.key] ?? entry.defaults[preset];
+  if (entry.kind === "choice") {
+    return entry.choices.find((one) => one.value === value)?.label ?? String(value);
+  }
+  if (typeof value === "boolean") return value ? "on" : "off";
+  return typeof value === "number" ? number(value) : "automatic";
 }
 
 /** Two lines at a pass. */

@@ -4,6 +4,7 @@
  */
 
 import { announce, byId, icon, make } from "../dom";
+import { look } from "../looking";
 import { store, type State } from "../store";
 import { drawChart, scalesOf, shareOf } from "./chart";
 import { apartAt, flicker, flickers } from "./compare";
@@ -43,8 +44,18 @@ const going = make(
 );
 const lines = make("fieldset", { class: "segments small" });
 const turns = make("button", { type: "button", id: "flicker", "aria-pressed": "false" }, "Flicker");
+const pair = make(
+  "button",
+  {
+    type: "button",
+    id: "beside",
+    "aria-pressed": "false",
+    title: "The reliefs of both lines under one light",
+  },
+  "Side by side",
+);
 const apart = make("p", { id: "apart", class: "apart" });
-const two = make("div", { class: "two-lines", hidden: true }, lines, turns, apart);
+const two = make("div", { class: "two-lines", hidden: true }, lines, turns, pair, apart);
 
 function button(name: string, picture: string): HTMLButtonElement {
   const title = { title: name, "aria-label": name };
@@ -92,6 +103,19 @@ export function mountTimeline(): void {
     stop();
     flickering(!flickers());
   });
+  pair.addEventListener("click", () => {
+    rest();
+    const { beside, view } = store.state;
+    const on = !beside || view !== "relief";
+    store.update({ beside: on, ...(on ? { view: "relief" } : {}) });
+    void look();
+  });
+  store.watch(
+    ({ beside, view }) => [beside, view],
+    ({ beside, view }) => {
+      pair.ariaPressed = String(beside && view === "relief");
+    },
+  );
   lines.addEventListener("change", (event) => {
     rest();
     const line = Number((event.target as HTMLInputElement).value);
@@ -150,11 +174,17 @@ function want(at: number): void {
 function drawLines(state: Readonly<State>): void {
   const { timeline } = state;
   byId("timeline").hidden = timeline === null;
-  if (!timeline) return rest();
+  if (!timeline) {
+    if (state.beside) store.update({ beside: false });
+    return rest();
+  }
   range.min = String(firstOf(state));
   range.max = String(lengthOf(timeline));
   two.hidden = timeline.lines.length < 2;
-  if (two.hidden) return flickering(false);
+  if (two.hidden) {
+    if (state.beside) store.update({ beside: false });
+    return flickering(false);
+  }
   lines.replaceChildren(
     make("legend", { class: "visually-hidden" }, "Line shown"),
     ...timeline.lines.map((line, i) =>

@@ -13,6 +13,7 @@ import type { Catalogues } from "./protocol";
 
 export {
   displacement,
+  fileKind,
   findCurves,
   findFocal,
   Frame,
@@ -21,6 +22,7 @@ export {
   panicMessage,
   Scene,
   Solver,
+  Truth,
   type Baseline,
   type LensEntry,
   type Picture,

@@ -5,10 +5,22 @@
  * opened or configured is built anew before the old is let go, so an error leaves things as they were.
  */
 
-import { findCurves, findFocal, Frame, hornSchunck, Kept, type Picture, type Solver } from "./core";
+import { findCurves, findFocal, Frame, Kept, type Solver } from "./core";
 import { carriedOn } from "./carried";
+import { drawn, legendOf, MOST_PIXELS } from "./drawing";
 import { squeeze, unsqueeze } from "./keeping";
-import { build, focalFrom, framesOf, free, ownSetup, take, type Owned } from "./owned";
+import {
+  build,
+  focalFrom,
+  framesOf,
+  free,
+  known,
+  ownSetup,
+  scoresOf,
+  setTruth,
+  take,
+  type Owned,
+} from "./owned";
 import { bitmap } from "./pictures";
 import { goOnFrom } from "./standing";
 import type {
@@ -19,6 +31,7 @@ import type {
   Found,
   Followed,
   FrameFile,
+  KnownParts,
   Legend,
   MeshData,
   Opened,
@@ -33,11 +46,7 @@ import type {
   Source,
   Status,
   Standing,
-  Whose,
 } from "./protocol";
-
-/** Frames with more pixels are drawn smaller. */
-const MOST_PIXELS = 4e6;
 
 export class Engine {
   private owned: Owned | null = null;
@@ -79,7 +88,7 @@ export class Engine {
         setup,
         restored: this.restored !== null,
         focalFrom: focalFrom(owned),
-        truth: scene !== null,
+        truth: known(owned),
       };
     } catch (error) {
       free(owned);
@@ -143,8 +152,11 @@ export class Engine {
       const shapes = kept ?? carriedOn(setup.shapes, this.contours());
       if (kept) solver.setCurves(JSON.stringify(kept));
       owned.first.free();
+      owned.scene?.free();
+      owned.truth?.free();
       owned.baseline?.free();
-      this.owned = { first: owned.second, second: next, scene: null, baseline: null };
+      const none = { scene: null, truth: null, baseline: null };
+      this.owned = { first: owned.second, second: next, ...none };
       this.setup = { ...setup, shapes };
       this.carried = shapes;
       return { frames: await framesOf(solver), shapes };
@@ -292,7 +304,7 @@ export class Engine {
   }
 
   async picture(request: PictureRequest, longest: number): Promise<ImageBitmap> {
-    const picture = this.drawn(request);
+    const picture = drawn(this.present().owned, this.shown(), request);
     try {
       return await bitmap(picture, longest);
     } finally {
@@ -300,11 +312,15 @@ export class Engine {
     }
   }
 
-  legend({ of, kind, params, compared }: PictureRequest): Legend | null {
-    const { scene } = this.present().owned;
-    const given = JSON.stringify(params);
-    const colours = compared && scene ? scene.sameColours(given) : given;
-    return JSON.parse(this.drawer(of).legend(kind, colours)) as Legend | null;
+  legend(request: PictureRequest): Legend | null {
+    return legendOf(this.present().owned, this.shown(), request);
+  }
+
+  /** Takes what is true of the frames from files; on an error all stays. */
+  setTruth(files: FrameFile[]): KnownParts {
+    const { owned } = this.present();
+    setTruth(owned, files);
+    return known(owned)!;
   }
 
   /** What is found at a pixel, if anything is. */
@@ -316,35 +332,9 @@ export class Engine {
     ) as Probe | null;
   }
 
-  private drawn(
-    { of, kind, params, compared }: PictureRequest,
-    pixels: number | null = MOST_PIXELS,
-  ): Picture {
-    const { owned, solver } = this.present();
-    const { scene } = owned;
-    const given = JSON.stringify({ ...params, pixels });
-    const colours = compared && scene ? scene.sameColours(given) : given;
-    if (of === "found" && compared && scene) {
-      return (this.restored?.kept ?? solver).viewAligned(kind, colours, scene);
-    }
-    return this.drawer(of).view(kind, colours);
-  }
-
-  private drawer(of: Whose): {
-    view(kind: string, params: string): Picture;
-    legend(kind: string, params: string): string;
-  } {
-    const { owned, solver } = this.present();
-    switch (of) {
-      case "found":
-        return this.restored?.kept ?? solver;
-      case "truth":
-        if (!owned.scene) throw new Error("the truth of these frames is not known");
-        return owned.scene;
-      case "horn-schunck":
-        owned.baseline ??= hornSchunck(owned.first, owned.second);
-        return owned.baseline;
-    }
+  /** What is shown: the solver's, or what was put away. */
+  private shown(): Solver | Kept {
+    return this.restored?.kept ?? this.present().solver;
   }
 
   mesh(params: Record<string, unknown>): MeshData {
@@ -352,8 +342,8 @@ export class Engine {
     const given = JSON.stringify({ ...params, pixels: MOST_PIXELS });
     const mesh = (this.restored?.kept ?? solver).mesh(given);
     try {
-      const { positions, normals, uvs, colours, indices, parts } = mesh;
-      return { positions, normals, uvs, colours, indices, parts };
+      const { positions, normals, uvs, colours, indices, parts, deepened } = mesh;
+      return { positions, normals, uvs, colours, indices, parts, deepened };
     } finally {
       mesh.free();
     }
@@ -361,9 +351,7 @@ export class Engine {
 
   /** `null` when there is no truth to compare with. */
   scores(): ScoreTable | null {
-    const { owned, solver } = this.present();
-    if (!owned.scene) return null;
-    return JSON.parse((this.restored?.kept ?? solver).scores(owned.scene)) as ScoreTable;
+    return scoresOf(this.present().owned, this.shown());
   }
 
   file(name: string, params: Record<string, unknown>): Uint8Array<ArrayBuffer> {
@@ -374,7 +362,7 @@ export class Engine {
 
   /** A picture at the frame's size. */
   png(request: PictureRequest): Uint8Array<ArrayBuffer> {
-    const picture = this.drawn(request, null);
+    const picture = drawn(this.present().owned, this.shown(), request, null);
     try {
       return picture.png();
     } finally {

@@ -1,13 +1,15 @@
 /** Two frames of the core, where they come from, and the solver that is built on them. */
 
-import { Frame, Scene, Solver, type Baseline, type LensEntry } from "./core";
+import { Frame, hornSchunck, Scene, Solver, Truth, type Baseline, type LensEntry } from "./core";
 import { bitmap } from "./pictures";
-import type { Setup, Source } from "./protocol";
+import type { FrameFile, KnownParts, ScoreTable, Setup, Source } from "./protocol";
 
 export interface Owned {
   first: Frame;
   second: Frame;
   scene: Scene | null;
+  /** The scene's, or that of files. */
+  truth: Truth | null;
   /** Made when first asked for. */
   baseline: Baseline | null;
 }
@@ -15,12 +17,15 @@ export interface Owned {
 export function take(source: Source): Owned {
   if (source.kind === "scene") {
     const scene = new Scene(source.name, source.width, source.height);
-    return { first: scene.first(), second: scene.second(), scene, baseline: null };
+    const truth = Truth.ofScene(scene);
+    return { first: scene.first(), second: scene.second(), scene, truth, baseline: null };
   }
   const first = Frame.decode(source.first.bytes, source.first.name);
   try {
     const second = Frame.decode(source.second.bytes, source.second.name);
-    return { first, second, scene: null, baseline: null };
+    const owned = { first, second, scene: null, truth: null, baseline: null };
+    if (source.truth) setTruth(owned, source.truth);
+    return owned;
   } catch (error) {
     first.free();
     throw error;
@@ -74,9 +79,34 @@ export function build({ first, second }: Owned, { camera, shapes, options }: Set
   );
 }
 
-export function free({ first, second, scene, baseline }: Owned): void {
+/** Takes what is true of the frames from files; what is no truth of theirs changes nothing. */
+export function setTruth(owned: Owned, files: FrameFile[]): void {
+  const truth = new Truth(owned.first, owned.second, files);
+  owned.truth?.free();
+  owned.truth = truth;
+}
+
+export const known = ({ truth }: Owned): KnownParts | null =>
+  truth && (JSON.parse(truth.known()) as KnownParts);
+
+export function baselineOf(owned: Owned): Baseline {
+  owned.baseline ??= hornSchunck(owned.first, owned.second);
+  return owned.baseline;
+}
+
+/** `null` when there is no truth to compare with. */
+export function scoresOf(
+  owned: Owned,
+  found: { scores(truth: Truth, baseline: Baseline): string },
+): ScoreTable | null {
+  const { truth } = owned;
+  return truth && (JSON.parse(found.scores(truth, baselineOf(owned))) as ScoreTable | null);
+}
+
+export function free({ first, second, scene, truth, baseline }: Owned): void {
   first.free();
   second.free();
   scene?.free();
+  truth?.free();
   baseline?.free();
 }

@@ -10,6 +10,7 @@ import type {
   Choice,
   Contour,
   Displacement,
+  KnownParts,
   Legend,
   Limits,
   OptionEntry,
@@ -29,13 +30,14 @@ export type {
   Contour,
   Displacement,
   Expected,
+  KnownParts,
   Legend,
   OptionEntry,
   PresetEntry,
+  PartScores,
   Probe,
   RegionReport,
   Report,
-  Scores,
   ScoreTable,
   Shape,
   Status,
@@ -116,6 +118,8 @@ export type Source =
       second: FrameFile;
       /** A sentence that says what they are, where that is not plain from their names. */
       note?: string;
+      /** What is true of them, as far as somebody knows. */
+      truth?: FrameFile[];
     };
 
 /** A pair that has been opened and found good. */
@@ -132,8 +136,8 @@ export interface Opened {
   restored: boolean;
   /** A sentence: where the setup's focal length comes from. */
   focalFrom: string;
-  /** Whether labels, depth and motion are known, so that scores can be given. */
-  truth: boolean;
+  /** What is known to be true of them, if anything is, so that scores can be given. */
+  truth: KnownParts | null;
 }
 
 export type Part = "all" | "motion" | "depth" | "curves";
@@ -178,6 +182,8 @@ export interface MeshData {
   indices: Uint32Array<ArrayBuffer>;
   /** How many indices are of what is seen, of what goes on hidden behind it, and of what is of unknown depth. */
   parts: Uint32Array<ArrayBuffer>;
+  /** The factor that depth is multiplied by. */
+  deepened: number;
 }
 
 /** What the worker sends; the next is sent only once the page has drawn this one. */
@@ -243,6 +249,10 @@ export interface Service {
     file: FrameFile,
     longest: number,
   ): Promise<{ width: number; height: number; picture: ImageBitmap }>;
+  /** What these files have of a truth, as somebody `said` or not; `null` for one that has nothing, as a frame. */
+  truthKinds(files: FrameFile[], said: boolean): Promise<(string | null)[]>;
+  /** Takes what is true of the open pair; throws a sentence, and all stays, where it is not of that. */
+  setTruth(files: FrameFile[]): Promise<KnownParts>;
   /** How far things move between two frames, shown small; `null` when they differ in size or are too small. */
   displacement(first: ImageBitmap, second: ImageBitmap): Promise<Displacement | null>;
   /** Opens a pair; on any error the one open before stays. `keep` overrides the source's own setup, as far as it goes; `found` is shown with it. */
@@ -275,6 +285,8 @@ export interface Service {
   run(setup: Setup, wanted: Wanted, pace: number): Promise<void>;
   /** What is found at a pixel; `null` outside the frame, and until there is something. */
   probe(x: number, y: number, params: Record<string, unknown>): Promise<Probe | null>;
+  /** The relief of what is found, with the parameters of a view. */
+  mesh(params: Record<string, unknown>): Promise<MeshData>;
   /** Another least time for a pass, while it runs. */
   pace(milliseconds: number): Promise<void>;
   pause(): Promise<void>;

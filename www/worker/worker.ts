@@ -7,11 +7,19 @@
 
 import * as Comlink from "comlink";
 
-import { catalogues, load, panicMessage } from "./core";
+import { catalogues, fileKind, load, panicMessage } from "./core";
 import { Engine } from "./engine";
 import { keepPass, takePasses } from "./passes";
 import { measure, preview } from "./pictures";
-import type { Failure, PictureRequest, Progress, Service, Setup, Wanted } from "./protocol";
+import type {
+  Failure,
+  MeshData,
+  PictureRequest,
+  Progress,
+  Service,
+  Setup,
+  Wanted,
+} from "./protocol";
 
 /** A pass that takes longer keeps those waiting who look at something else meanwhile, milliseconds. */
 const LONG_MS = 150;
@@ -162,7 +170,7 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
   let mesh: Progress["mesh"] = null;
   if (wanted.mesh && meshIsDue(to, report.iterations)) {
     mesh = engine.mesh(wanted.mesh);
-    transfer.push(...Object.values(mesh).map(({ buffer }) => buffer));
+    transfer.push(...buffersOf(mesh));
     to.mesh = { iterations: report.iterations, at: performance.now() };
   }
   const scores = engine.scores();
@@ -196,6 +204,9 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
     transfer,
   };
 }
+
+const buffersOf = (mesh: MeshData) =>
+  Object.values(mesh).flatMap((list) => (typeof list === "number" ? [] : [list.buffer]));
 
 function meshIsDue({ mesh }: Look, iterations: number): boolean {
   const rested = !running || performance.now() - mesh.at > MESH_INTERVAL_MS;
@@ -237,6 +248,11 @@ const service: Service = {
       const seen = await preview(file, longest);
       return Comlink.transfer(seen, [seen.picture]);
     }),
+
+  truthKinds: (files, said) =>
+    guard(() => files.map(({ name, bytes }) => fileKind(name, bytes, said) ?? null)),
+
+  setTruth: (files) => guard(() => engine.setTruth(files)),
 
   displacement: (first, second) => guard(() => measure(first, second)),
 
@@ -311,6 +327,12 @@ const service: Service = {
     }),
 
   probe: (x, y, params) => guard(() => engine.probe(x, y, params)),
+
+  mesh: (params) =>
+    guard(() => {
+      const mesh = engine.mesh(params);
+      return Comlink.transfer(mesh, buffersOf(mesh));
+    }),
 
   pace: (milliseconds) =>
     guard(() => {
