@@ -1,9 +1,7 @@
 //! KITTI's flow: a PNG of 16-bit RGB, u = (R − 32768)/64 and v = (G − 32768)/64 in pixels where B is not 0, unknown
 //! where it is.
 
-use image::{DynamicImage, ImageFormat, ImageReader};
-use std::io::Cursor;
-
+use super::png::{Samples, Unread, wrong};
 use super::{bounded, unreadable};
 use crate::error::Error;
 use crate::grid::Grid;
@@ -16,17 +14,16 @@ const FORMAT: &str = "16-bit RGB PNG of flow";
 /// # Errors
 /// [`Error::File`] for anything else, and for sides above the largest frame's.
 pub fn read(bytes: &[u8], name: &str) -> Result<Flow, Error> {
-    let wrong = |reason: String| unreadable(name, FORMAT, reason);
-    let open = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
-    let size = open().into_dimensions().map_err(|e| wrong(e.to_string()))?;
-    let (width, height) = bounded(name, FORMAT, size.0.into(), size.1.into())?;
-    let DynamicImage::ImageRgb16(picture) = open().decode().map_err(|e| wrong(e.to_string()))?
-    else {
-        return Err(wrong(
-            "its pixels are not three 16-bit numbers each".to_owned(),
+    let file = Unread::open(bytes).map_err(|e| wrong(name, FORMAT, e))?;
+    let (width, height) = bounded(name, FORMAT, file.width.into(), file.height.into())?;
+    let picture = file.read().map_err(|e| wrong(name, FORMAT, e))?;
+    let (3, Samples::Words(samples)) = (picture.channels, picture.samples) else {
+        return Err(unreadable(
+            name,
+            FORMAT,
+            "its pixels are not three 16-bit numbers each",
         ));
     };
-    let samples = picture.into_raw();
     let of = |channel: usize| {
         Grid::from_fn(width, height, |x, y| {
             let at = 3 * (y * width + x);

@@ -10,7 +10,6 @@ pub(super) fn breaks_off(bytes: &[u8]) -> bool {
 }
 
 /// The next JPEG in the bytes behind the end of the first; at most some zeros may lie between.
-#[cfg(feature = "decoders")]
 pub(super) fn behind(bytes: &[u8]) -> Option<&[u8]> {
     let rest = end(bytes.strip_prefix(&[0xff, 0xd8])?)?;
     let padding = rest.iter().position(|&b| b != 0)?;

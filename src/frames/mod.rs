@@ -1,27 +1,30 @@
 //! From bytes to what the solver reads: decoding, brightness, and its derivatives.
 
 mod absent;
-mod decode;
 mod derivatives;
 mod fields;
-#[cfg(feature = "decoders")]
 mod film;
 mod frame;
 mod gaussian;
+#[cfg(feature = "decoders")]
 mod jpeg;
 mod lens;
 mod levels;
 mod lighting;
 mod note;
+#[cfg(feature = "decoders")]
+mod others;
+#[cfg(feature = "decoders")]
+mod pictures;
 mod pyramid;
 mod samples;
 mod shrink;
 mod spline;
 #[cfg(feature = "decoders")]
 mod tiff;
+mod unpack;
 
 pub use derivatives::{Derivatives, gradient};
-#[cfg(feature = "decoders")]
 pub use film::{Film, Kind, Moment};
 #[cfg(feature = "scenes")]
 pub(crate) use frame::check_size;

@@ -1,45 +1,23 @@
-//! From the bytes of an image file to a frame.
-//!
-//! The size is read from the header and checked before any pixel is unpacked. While a file is unpacked, memory holds
-//! its samples (3 bytes a pixel in an 8-bit photo) beside the frame.
+//! Files that are no PNG: JPEG, PNM, WebP, BMP, GIF and TIFF.
 
+use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
-use super::frame::{Frame, check_size};
+use super::frame::check_size;
 use super::jpeg;
-#[cfg(feature = "decoders")]
 use super::lens::Lens;
-use super::samples::Raw;
-#[cfg(feature = "decoders")]
+use super::samples::{Raw, Samples, UPRIGHT};
 use super::tiff::{self, Pages};
+use super::unpack::{damaged, unreadable};
 use crate::error::Error;
-use crate::file::png;
+use crate::file::png::MOST_BYTES;
 
-/// Bytes that a decoder may take for one picture: 16-bit RGB with alpha of the largest frame.
-pub(super) const MOST_BYTES: u64 = 800_000_000;
-
-impl Frame {
-    /// Reads a PNG, JPEG, PNM, WebP, BMP, GIF or TIFF file of up to 16 bits: grey, colour, palettes, with or without
-    /// alpha, of which PNG alone without the feature `decoders`; the first picture of a file that holds several. It is turned upright as its EXIF data says. Transparent
-    /// parts are shown on mid grey. `name` is what error messages call it.
-    ///
-    /// # Errors
-    /// [`Error::Decode`] for anything else, [`Error::Size`] and [`Error::Pixels`] outside the limits,
-    /// [`Error::TooLarge`] far outside.
-    pub fn decode(bytes: &[u8], name: &str) -> Result<Self, Error> {
-        check_length(bytes, name)?;
-        #[cfg(feature = "decoders")]
-        if tiff::is_tiff(bytes) {
-            let mut frame = first_page(bytes, name)?;
-            frame.lens = Lens::of_tiff(bytes, frame.width(), frame.height());
-            return Ok(frame);
-        }
-        picture(bytes, name)
+/// The first picture of such a file.
+pub(super) fn unpack(bytes: &[u8], name: &str) -> Result<Raw, Error> {
+    if tiff::is_tiff(bytes) {
+        return first_page(bytes, name);
     }
-}
-
-fn picture(bytes: &[u8], name: &str) -> Result<Frame, Error> {
     let refuse = |e| refused(name, e);
     if let Some(kind) = foreign(bytes) {
         return Err(unreadable(name, format!("it is {kind}")));
@@ -62,41 +40,61 @@ fn picture(bytes: &[u8], name: &str) -> Result<Frame, Error> {
         reader.set_format(format);
         Ok(reader)
     };
-    if png::palette_breaks_off(bytes) {
-        return Err(unreadable(name, "its palette is cut short"));
-    }
     let (width, height) = open()?.into_dimensions().map_err(refuse)?;
     check_size(name, width as usize, height as usize)?;
     if jpeg::breaks_off(bytes) {
         return Err(unreadable(name, "the file is cut short"));
     }
     let mut decoder = open()?.into_decoder().map_err(refuse)?;
-    #[cfg(feature = "decoders")]
     let exif = decoder.exif_metadata().ok().flatten();
     let upright = decoder.orientation().map_err(refuse)?;
     let picture = DynamicImage::from_decoder(decoder).map_err(refuse)?;
-    let frame = Raw::new(picture, upright).frame();
-    #[cfg(feature = "decoders")]
-    let lens = exif.and_then(|exif| Lens::of_exif(exif, frame.width(), frame.height()));
-    #[cfg(feature = "decoders")]
-    let frame = Frame { lens, ..frame };
-    Ok(frame)
+    let lens = exif.and_then(|exif| Lens::of_exif(exif, width as usize, height as usize));
+    Ok(Raw {
+        orientation: upright.to_exif(),
+        lens,
+        ..raw(picture)
+    })
 }
 
-#[cfg(feature = "decoders")]
-fn first_page(bytes: &[u8], name: &str) -> Result<Frame, Error> {
+fn first_page(bytes: &[u8], name: &str) -> Result<Raw, Error> {
     let refuse = |e: tiff::Refused| e.error(name);
     let mut pages = Pages::open(bytes).map_err(refuse)?;
     let (width, height) = pages.size().map_err(refuse)?;
-    check_size(name, width as usize, height as usize)?;
-    Ok(pages.read().map_err(refuse)?.frame())
+    let (width, height) = (width as usize, height as usize);
+    check_size(name, width, height)?;
+    Ok(Raw {
+        lens: Lens::of_tiff(bytes, width, height),
+        ..pages.read().map_err(refuse)?
+    })
 }
 
-pub(super) fn check_length(bytes: &[u8], name: &str) -> Result<(), Error> {
-    if bytes.is_empty() {
-        return Err(unreadable(name, "the file is empty"));
+/// The samples of an unpacked picture that stands upright.
+pub(super) fn raw(picture: DynamicImage) -> Raw {
+    let size = (picture.width() as usize, picture.height() as usize);
+    let (channels, samples) = match picture {
+        DynamicImage::ImageLuma8(p) => (1, Samples::Bytes(p.into_raw())),
+        DynamicImage::ImageLumaA8(p) => (2, Samples::Bytes(p.into_raw())),
+        DynamicImage::ImageRgb8(p) => (3, Samples::Bytes(p.into_raw())),
+        DynamicImage::ImageRgba8(p) => (4, Samples::Bytes(p.into_raw())),
+        DynamicImage::ImageLuma16(p) => (1, Samples::Words(p.into_raw())),
+        DynamicImage::ImageLumaA16(p) => (2, Samples::Words(p.into_raw())),
+        DynamicImage::ImageRgb16(p) => (3, Samples::Words(p.into_raw())),
+        DynamicImage::ImageRgba16(p) => (4, Samples::Words(p.into_raw())),
+        other => (4, Samples::Floats(other.to_rgba32f().into_raw())),
+    };
+    Raw {
+        size,
+        channels,
+        samples,
+        orientation: UPRIGHT,
+        lens: None,
     }
-    Ok(())
+}
+
+/// What EXIF data say makes a picture stand upright.
+pub(super) fn orientation_of(exif: &[u8]) -> u8 {
+    Orientation::from_exif_chunk(exif).map_or(UPRIGHT, Orientation::to_exif)
 }
 
 /// What the first bytes say that a file is.
@@ -106,15 +104,8 @@ pub(super) fn format_of(bytes: &[u8]) -> Option<ImageFormat> {
 
 pub(super) fn limits() -> Limits {
     let mut limits = Limits::default();
-    limits.max_alloc = Some(MOST_BYTES);
+    limits.max_alloc = Some(MOST_BYTES as u64);
     limits
-}
-
-pub(super) fn unreadable(name: &str, reason: impl Into<String>) -> Error {
-    Error::Decode {
-        name: name.to_owned(),
-        reason: reason.into(),
-    }
 }
 
 /// The decoder's complaint in a user's words.
@@ -127,7 +118,7 @@ pub(super) fn refused(name: &str, error: ImageError) -> Error {
             name,
             "its pixels are stored in a way that is seldom used; save it as grey or RGB of 8 or 16 bits",
         ),
-        _ => unreadable(name, "the file is damaged or cut short"),
+        _ => damaged(name),
     }
 }
 
