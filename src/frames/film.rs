@@ -26,6 +26,23 @@ pub enum Kind {
     Pages,
 }
 
+impl Kind {
+    /// All there are.
+    #[cfg(all(target_arch = "wasm32", feature = "javascript"))]
+    pub(crate) const ALL: [Self; 4] = [Self::Still, Self::Animation, Self::Views, Self::Pages];
+
+    /// What JavaScript calls it.
+    #[cfg(target_arch = "wasm32")]
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Still => "still",
+            Self::Animation => "animation",
+            Self::Views => "views",
+            Self::Pages => "pages",
+        }
+    }
+}
+
 /// A picture of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {

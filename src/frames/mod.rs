@@ -25,8 +25,13 @@ mod tiff;
 mod unpack;
 
 pub use derivatives::{Derivatives, gradient};
+#[cfg(all(
+    target_arch = "wasm32",
+    any(feature = "javascript", feature = "javascript-decoders")
+))]
+pub(crate) use film::Contents;
 pub use film::{Film, Kind, Moment};
-#[cfg(feature = "scenes")]
+#[cfg(any(feature = "scenes", feature = "javascript"))]
 pub(crate) use frame::check_size;
 pub(crate) use frame::least_factor;
 pub use frame::{Frame, FramePair, MAX_PIXELS, MAX_SIDE, MIN_SIDE, MOST_WORKED};
@@ -34,6 +39,19 @@ pub use gaussian::blur;
 pub use lens::{Lens, LensSource};
 pub use lighting::Lighting;
 pub use note::Note;
+#[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
+pub(crate) use pictures::each_picture;
 pub use pyramid::{halved, halved_camera};
+#[cfg(all(
+    target_arch = "wasm32",
+    any(feature = "javascript", feature = "javascript-decoders")
+))]
+pub(crate) use samples::Sample;
+#[cfg(all(target_arch = "wasm32", feature = "javascript"))]
+pub(crate) use samples::frame_of_rows;
+#[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
+pub(crate) use samples::{Raw, Samples};
 pub(crate) use shrink::shrunk_camera;
 pub(crate) use spline::{LANES, Spline};
+#[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
+pub(crate) use unpack::unpack as unpack_one;
