@@ -36,6 +36,8 @@ pub(crate) use frame::check_size;
 pub(crate) use frame::least_factor;
 pub use frame::{Frame, FramePair, MAX_PIXELS, MAX_SIDE, MIN_SIDE, MOST_WORKED};
 pub use gaussian::blur;
+#[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
+pub(crate) use jpeg::views;
 pub use lens::{Lens, LensSource};
 pub use lighting::Lighting;
 pub use note::Note;

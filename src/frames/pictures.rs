@@ -1,7 +1,7 @@
 //! The pictures of a file that holds more than one: animations, pairs of views, pages.
 //!
 //! Frames of an animation are whole pictures, as long as each is shown beside it. An MPO file is one JPEG after
-//! another; of those that follow the first, views are those of its size, and smaller ones (thumbnails, gain maps) are not.
+//! another; of those that follow the first, views are those of its size, and neither thumbnails nor gain maps are.
 
 use image::codecs::gif::GifDecoder;
 use image::codecs::png::PngDecoder;
@@ -106,14 +106,14 @@ fn checked(decoder: &mut impl ImageDecoder, name: &str) -> Result<(), Error> {
     decoder.set_limits(limits()).map_err(|e| refused(name, e))
 }
 
-/// The JPEGs of a file, one behind the other.
 fn views(bytes: &[u8], name: &str, take: Take) -> Result<Contents, Error> {
     let mut room = take(unpack(bytes, name)?, 0.0);
-    let mut rest = jpeg::behind(bytes);
-    while let Some(next) = rest.filter(|_| room) {
+    for view in jpeg::views(bytes).into_iter().skip(1) {
+        if !room {
+            break;
+        }
         // What is no frame, such as a small thumbnail, is passed over.
-        room = unpack(next, name).map_or(true, |picture| take(picture, 0.0));
-        rest = jpeg::behind(next);
+        room = unpack(view, name).map_or(true, |picture| take(picture, 0.0));
     }
     Ok(whole(Kind::Views))
 }

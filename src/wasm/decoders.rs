@@ -5,7 +5,9 @@ use js_sys::Function;
 use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use crate::frames::{Contents, Kind, LensSource, Raw, Sample, Samples, each_picture, unpack_one};
+use crate::frames::{
+    Contents, Kind, LensSource, Raw, Sample, Samples, each_picture, unpack_one, views,
+};
 
 /// A picture of a file, upright.
 #[wasm_bindgen]
@@ -121,4 +123,15 @@ pub fn unpack(bytes: &[u8], name: &str, all: bool, take: &Function) -> Result<Op
         }
     };
     thrown.map_or(Ok(Opened(contents)), Err)
+}
+
+/// Where the views of a JPEG or MPO file begin and end in its bytes: from, to, from, to, …
+#[wasm_bindgen(js_name = viewsOf)]
+pub fn views_of(bytes: &[u8]) -> Vec<u32> {
+    let start = bytes.as_ptr().addr();
+    let place = |view: &[u8]| {
+        let from = view.as_ptr().addr() - start;
+        [from as u32, (from + view.len()) as u32]
+    };
+    views(bytes).into_iter().flat_map(place).collect()
 }

@@ -13,7 +13,7 @@ mod panic;
 mod solving;
 
 #[cfg(feature = "javascript-decoders")]
-pub use decoders::{Opened, Unpacked, unpack};
+pub use decoders::{Opened, Unpacked, unpack, views_of};
 pub use panic::{panic_for_test, panic_message};
 #[cfg(feature = "javascript")]
 pub use solving::*;

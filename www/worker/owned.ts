@@ -1,6 +1,6 @@
 /** Two frames of the core, where they come from, and the solver that is built on them. */
 
-import { Frame, Scene, Solver, type Baseline, type LensEntry } from "./core";
+import { decode, Scene, Solver, type Baseline, type Frame, type LensEntry } from "./core";
 import { bitmap } from "./pictures";
 import type { Setup, Source } from "./protocol";
 
@@ -12,14 +12,14 @@ export interface Owned {
   baseline: Baseline | null;
 }
 
-export function take(source: Source): Owned {
+export async function take(source: Source): Promise<Owned> {
   if (source.kind === "scene") {
     const scene = new Scene(source.name, source.width, source.height);
     return { first: scene.first(), second: scene.second(), scene, baseline: null };
   }
-  const first = Frame.decode(source.first.bytes, source.first.name);
+  const first = await decode(source.first);
   try {
-    const second = Frame.decode(source.second.bytes, source.second.name);
+    const second = await decode(source.second);
     return { first, second, scene: null, baseline: null };
   } catch (error) {
     first.free();

@@ -248,6 +248,8 @@ export interface Service {
     file: FrameFile,
     longest: number,
   ): Promise<{ width: number; height: number; picture: ImageBitmap }>;
+  /** The views that a JPEG or MPO file holds, each as a file of its own; a photo is the only one. */
+  views(bytes: Uint8Array): Promise<Uint8Array<ArrayBuffer>[]>;
   /** How far things move between two frames, shown small; `null` when they differ in size or are too small. */
   displacement(first: ImageBitmap, second: ImageBitmap): Promise<Displacement | null>;
   /** Opens a pair; on any error the one open before stays. `keep` overrides the source's own setup, as far as it goes; `found` is shown with it. */

@@ -7,7 +7,7 @@
 
 import * as Comlink from "comlink";
 
-import { catalogues, load, panicMessage } from "./core";
+import { catalogues, load, panicMessage, viewsOf } from "./core";
 import { Engine } from "./engine";
 import { keepPass, takePasses } from "./passes";
 import { measure, preview } from "./pictures";
@@ -234,6 +234,15 @@ const service: Service = {
     guard(async () => {
       const seen = await preview(file, longest);
       return Comlink.transfer(seen, [seen.picture]);
+    }),
+
+  views: (bytes) =>
+    guard(async () => {
+      const views = await viewsOf(bytes);
+      return Comlink.transfer(
+        views,
+        views.map(({ buffer }) => buffer),
+      );
     }),
 
   displacement: (first, second) => guard(() => measure(first, second)),

@@ -27,7 +27,7 @@ pub use film::{Film, decode_all};
 pub use frame::{Frame, Picture};
 pub use kept::Kept;
 pub use mesh::Mesh;
-pub use opening::use_decoders;
+pub use opening::{needs_decoders, use_decoders};
 pub use scene::Scene;
 pub use solver::Solver;
 pub use start::{displacement, find_curves, find_focal};

@@ -59,6 +59,9 @@ extern "C" {
     fn free(this: &Unpacked);
 }
 
+/// Bytes of a file in which its EXIF data begin.
+const HEAD: u32 = 1 << 18;
+
 thread_local! {
     static DECODERS: RefCell<Option<Decoders>> = const { RefCell::new(None) };
 }
@@ -67,6 +70,12 @@ thread_local! {
 #[wasm_bindgen(js_name = useDecoders)]
 pub fn use_decoders(decoders: Decoders) {
     DECODERS.set(Some(decoders));
+}
+
+/// Whether `Frame.decode` of a file needs what `loadDecoders` loads; `decodeAll` always does.
+#[wasm_bindgen(js_name = needsDecoders)]
+pub fn needs_decoders(bytes: &Uint8Array) -> bool {
+    !reads(bytes)
 }
 
 /// Hands the frames of a file, or the first of them unless `all`, to `take` with the seconds for which each is shown.
@@ -124,10 +133,10 @@ pub(super) fn open(
     })
 }
 
-/// Whether a file is read here.
+/// Whether a file is read here: a PNG without EXIF data, which come before the picture.
 fn reads(bytes: &Uint8Array) -> bool {
-    let head = bytes.subarray(0, bytes.length().min(8)).to_vec();
-    png::is_png(&head) && !png::has_exif(&bytes.to_vec())
+    let head = bytes.subarray(0, bytes.length().min(HEAD)).to_vec();
+    png::is_png(&head) && !png::has_exif(&head)
 }
 
 fn frame_of(picture: &Unpacked, name: &str) -> Result<crate::Frame, JsValue> {
