@@ -32,7 +32,7 @@ export * from "../pkg/relievo.js";
 export default function init(from?: InitInput | Promise<InitInput>): Promise<void>;
 
 /**
- * Loads what opens files that are no PNG, and PNG files with EXIF data, after `init()`: `Frame.decode` and `decodeAll`
- * of such files need it. `from` is as in `init`. In Node it is loaded with the first of them.
+ * Loads what opens files that are no PNG, after `init()`: `Frame.decode` and `decodeAll` of such files need it. `from` is
+ * as in `init`. In Node it is loaded with the first of them.
  */
 export function loadDecoders(from?: InitInput | Promise<InitInput>): Promise<void>;

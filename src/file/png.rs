@@ -114,7 +114,6 @@ impl<'a> Unread<'a> {
     }
 
     /// Its EXIF data.
-    #[cfg(feature = "decoders")]
     pub fn exif(&self) -> Option<Vec<u8>> {
         (self.reader.info().exif_metadata.as_ref()).map(|block| block.to_vec())
     }
@@ -171,26 +170,16 @@ pub(crate) fn is_png(bytes: &[u8]) -> bool {
 
 /// Whether the bytes are a PNG whose palette ends within a colour. The decoder would panic.
 pub(crate) fn palette_breaks_off(bytes: &[u8]) -> bool {
-    chunks(bytes).any(|(kind, length)| kind == b"PLTE" && !length.is_multiple_of(3))
-}
-
-/// Whether the bytes are a PNG with EXIF data.
-#[cfg(all(target_arch = "wasm32", feature = "javascript"))]
-pub(crate) fn has_exif(bytes: &[u8]) -> bool {
-    chunks(bytes).any(|(kind, _)| kind == b"eXIf")
-}
-
-/// What a PNG is made of: the four letters and the length of each part.
-fn chunks(bytes: &[u8]) -> impl Iterator<Item = (&[u8; 4], usize)> {
     let mut rest = bytes.strip_prefix(SIGNATURE).unwrap_or_default();
-    // The length of the data, four letters, the data, a checksum.
-    std::iter::from_fn(move || {
-        let (length, after) = rest.split_first_chunk::<4>()?;
+    // Chunks: the length of the data, four letters, the data, a checksum.
+    while let Some((length, after)) = rest.split_first_chunk::<4>() {
         let length = u32::from_be_bytes(*length) as usize;
-        let (kind, _) = after.split_first_chunk::<4>()?;
+        if after.starts_with(b"PLTE") && !length.is_multiple_of(3) {
+            return true;
+        }
         rest = after.get(length.saturating_add(8)..).unwrap_or_default();
-        Some((kind, length))
-    })
+    }
+    false
 }
 
 fn encode<T: Copy>(grid: &Grid<T>, bytes: &[u8], colour: ColorType) -> Result<Vec<u8>, Error> {

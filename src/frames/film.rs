@@ -3,11 +3,8 @@
 //! Frames count up to [`MOST_PIXELS`] pixels together.
 
 use super::frame::Frame;
-#[cfg(feature = "decoders")]
-use super::pictures::each_picture;
-#[cfg(not(feature = "decoders"))]
-use super::unpack::each_picture;
-use super::unpack::unreadable;
+use super::samples::Raw;
+use super::unpack::{each_picture, unreadable};
 use crate::error::Error;
 
 /// Pixels of all frames together at most: 350 MB.
@@ -62,6 +59,9 @@ pub struct Film {
     /// Whether the file holds more than fit.
     pub cut: bool,
 }
+
+/// Takes a picture and the seconds for which it is shown, 0 where the file does not say; whether there is room for more.
+pub(crate) type Take<'a> = &'a mut dyn FnMut(Raw, f64) -> bool;
 
 /// What a file holds, besides its pictures.
 pub(crate) struct Contents {

@@ -1,6 +1,7 @@
 //! From bytes to what the solver reads: decoding, brightness, and its derivatives.
 
 mod absent;
+mod apng;
 mod derivatives;
 mod fields;
 mod film;
@@ -41,19 +42,22 @@ pub(crate) use jpeg::views;
 pub use lens::{Lens, LensSource};
 pub use lighting::Lighting;
 pub use note::Note;
-#[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
-pub(crate) use pictures::each_picture;
 pub use pyramid::{halved, halved_camera};
+#[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
+pub(crate) use samples::Samples;
+#[cfg(all(target_arch = "wasm32", feature = "javascript"))]
+pub(crate) use samples::frame_of_rows;
 #[cfg(all(
     target_arch = "wasm32",
     any(feature = "javascript", feature = "javascript-decoders")
 ))]
-pub(crate) use samples::Sample;
-#[cfg(all(target_arch = "wasm32", feature = "javascript"))]
-pub(crate) use samples::frame_of_rows;
-#[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
-pub(crate) use samples::{Raw, Samples};
+pub(crate) use samples::{Raw, Sample};
 pub(crate) use shrink::shrunk_camera;
 pub(crate) use spline::{LANES, Spline};
+#[cfg(all(
+    target_arch = "wasm32",
+    any(feature = "javascript", feature = "javascript-decoders")
+))]
+pub(crate) use unpack::each_picture;
 #[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
 pub(crate) use unpack::unpack as unpack_one;

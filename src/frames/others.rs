@@ -1,6 +1,5 @@
 //! Files that are no PNG: JPEG, PNM, WebP, BMP, GIF and TIFF.
 
-use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
@@ -90,11 +89,6 @@ pub(super) fn raw(picture: DynamicImage) -> Raw {
         orientation: UPRIGHT,
         lens: None,
     }
-}
-
-/// What EXIF data say makes a picture stand upright.
-pub(super) fn orientation_of(exif: &[u8]) -> u8 {
-    Orientation::from_exif_chunk(exif).map_or(UPRIGHT, Orientation::to_exif)
 }
 
 /// What the first bytes say that a file is.

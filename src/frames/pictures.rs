@@ -1,33 +1,26 @@
-//! The pictures of a file that holds more than one: animations, pairs of views, pages.
+//! The pictures of a file that is no PNG and holds more than one: animations, pairs of views, pages.
 //!
 //! Frames of an animation are whole pictures, as long as each is shown beside it. An MPO file is one JPEG after
 //! another; of those that follow the first, views are those of its size, and neither thumbnails nor gain maps are.
 
 use image::codecs::gif::GifDecoder;
-use image::codecs::png::PngDecoder;
 use image::codecs::webp::WebPDecoder;
 use image::{AnimationDecoder, DynamicImage, ImageDecoder, ImageFormat};
 use std::io::Cursor;
 
-use super::film::{Contents, Kind};
+use super::film::{Contents, Kind, Take};
 use super::frame::check_size;
 use super::jpeg;
+use super::others::unpack;
 use super::others::{format_of, limits, raw, refused};
-use super::samples::Raw;
 use super::tiff::{self, Pages};
-use super::unpack::{check_length, unpack, unreadable};
 use crate::error::Error;
-use crate::file::png;
-
-/// Takes a picture and the seconds for which it is shown, 0 where the file does not say; whether there is room for more.
-type Take<'a> = &'a mut dyn FnMut(Raw, f64) -> bool;
 
 /// Hands the pictures of a file to `take`, in its order.
 ///
 /// # Errors
 /// Those of [`super::Frame::decode`].
-pub(crate) fn each_picture(bytes: &[u8], name: &str, take: Take) -> Result<Contents, Error> {
-    check_length(bytes, name)?;
+pub(super) fn each_picture(bytes: &[u8], name: &str, take: Take) -> Result<Contents, Error> {
     if tiff::is_tiff(bytes) {
         return pages(bytes, name, take);
     }
@@ -44,17 +37,6 @@ pub(crate) fn each_picture(bytes: &[u8], name: &str, take: Take) -> Result<Conte
             checked(&mut decoder, name)?;
             if decoder.has_animation() {
                 return animation(decoder, name, take);
-            }
-            still(bytes, name, take)
-        }
-        Some(ImageFormat::Png) => {
-            if png::palette_breaks_off(bytes) {
-                return Err(unreadable(name, "its palette is cut short"));
-            }
-            let mut decoder = PngDecoder::new(cursor()).map_err(refuse)?;
-            checked(&mut decoder, name)?;
-            if decoder.is_apng().map_err(refuse)? {
-                return animation(decoder.apng().map_err(refuse)?, name, take);
             }
             still(bytes, name, take)
         }

@@ -30,8 +30,8 @@ pub struct Frame(pub(super) crate::Frame);
 
 #[wasm_bindgen]
 impl Frame {
-    /// Reads the bytes of an image file; `name` is what errors call it. In browsers files that are no PNG, and PNG
-    /// files with EXIF data, need `loadDecoders()` before.
+    /// Reads the bytes of an image file; `name` is what errors call it. In browsers files that are no PNG need
+    /// `loadDecoders()` before.
     pub fn decode(bytes: &Uint8Array, name: &Word) -> Result<Frame, JsValue> {
         let mut first = None;
         open(

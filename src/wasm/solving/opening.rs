@@ -9,7 +9,9 @@ use wasm_bindgen::{JsCast, JsValue};
 use super::kind_of;
 use crate::error::Error;
 use crate::file::png;
-use crate::frames::{Contents, Kind, Lens, LensSource, Sample, check_size, frame_of_rows};
+use crate::frames::{
+    Contents, Kind, Lens, LensSource, Raw, Sample, check_size, each_picture, frame_of_rows,
+};
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPES: &str = "
@@ -59,9 +61,6 @@ extern "C" {
     fn free(this: &Unpacked);
 }
 
-/// Bytes of a file in which its EXIF data begin.
-const HEAD: u32 = 1 << 18;
-
 thread_local! {
     static DECODERS: RefCell<Option<Decoders>> = const { RefCell::new(None) };
 }
@@ -72,7 +71,7 @@ pub fn use_decoders(decoders: Decoders) {
     DECODERS.set(Some(decoders));
 }
 
-/// Whether `Frame.decode` of a file needs what `loadDecoders` loads; `decodeAll` always does.
+/// Whether `Frame.decode` of a file needs what `loadDecoders` loads, as all do that are no PNG.
 #[wasm_bindgen(js_name = needsDecoders)]
 pub fn needs_decoders(bytes: &Uint8Array) -> bool {
     !reads(bytes)
@@ -93,8 +92,13 @@ pub(super) fn open(
         }
         .into());
     }
-    if !all && reads(bytes) {
-        take(crate::Frame::decode(&bytes.to_vec(), name)?, 0.0);
+    if reads(bytes) {
+        let bytes = bytes.to_vec();
+        if all {
+            let take = &mut |raw: Raw, seconds| take(raw.frame(), seconds);
+            return Ok(each_picture(&bytes, name, take)?);
+        }
+        take(crate::Frame::decode(&bytes, name)?, 0.0);
         return Ok(Contents {
             kind: Kind::Still,
             cut: false,
@@ -133,10 +137,9 @@ pub(super) fn open(
     })
 }
 
-/// Whether a file is read here: a PNG without EXIF data, which come before the picture.
+/// Whether a file is read here.
 fn reads(bytes: &Uint8Array) -> bool {
-    let head = bytes.subarray(0, bytes.length().min(HEAD)).to_vec();
-    png::is_png(&head) && !png::has_exif(&head)
+    png::is_png(&bytes.subarray(0, bytes.length().min(8)).to_vec())
 }
 
 fn frame_of(picture: &Unpacked, name: &str) -> Result<crate::Frame, JsValue> {
