@@ -81,6 +81,7 @@ mod layered;
 mod linalg;
 mod motion_model;
 pub mod options;
+mod ordered;
 pub mod paper;
 pub mod probe;
 #[cfg(feature = "scenes")]

@@ -6,6 +6,10 @@
 /// The start of image.
 const START: [u8; 2] = [0xff, 0xd8];
 
+pub(super) fn is_jpeg(bytes: &[u8]) -> bool {
+    bytes.starts_with(&START)
+}
+
 /// Whether the bytes are a JPEG without an end. The decoder would fill what is missing with grey and say
 /// nothing, and a solver would take the grey for a scene.
 pub(super) fn breaks_off(bytes: &[u8]) -> bool {

@@ -37,8 +37,6 @@ pub(crate) use frame::check_size;
 pub(crate) use frame::least_factor;
 pub use frame::{Frame, FramePair, MAX_PIXELS, MAX_SIDE, MIN_SIDE, MOST_WORKED};
 pub use gaussian::blur;
-#[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
-pub(crate) use jpeg::views;
 pub use lens::{Lens, LensSource};
 pub use lighting::Lighting;
 pub use note::Note;
@@ -54,10 +52,9 @@ pub(crate) use samples::frame_of_rows;
 pub(crate) use samples::{Raw, Sample};
 pub(crate) use shrink::shrunk_camera;
 pub(crate) use spline::{LANES, Spline};
-#[cfg(all(
-    target_arch = "wasm32",
-    any(feature = "javascript", feature = "javascript-decoders")
-))]
+#[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
+pub(crate) use unpack::check_length;
+#[cfg(all(target_arch = "wasm32", feature = "javascript"))]
 pub(crate) use unpack::each_picture;
 #[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
-pub(crate) use unpack::unpack as unpack_one;
+pub(crate) use {jpeg::views, others, pictures};

@@ -2,20 +2,32 @@
 
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::errors::DecodeErrors;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::frame::check_size;
 use super::jpeg;
-use super::lens::Lens;
+use super::lens::{Lens, orientation};
 use super::samples::{Raw, Samples, UPRIGHT};
 use super::tiff::{self, Pages};
 use super::unpack::{damaged, unreadable};
 use crate::error::Error;
 use crate::file::png::MOST_BYTES;
 
+/// What is said of pixels that no decoder here knows.
+const SELDOM: &str =
+    "its pixels are stored in a way that is seldom used; save it as grey or RGB of 8 or 16 bits";
+
 /// The first picture of such a file.
-pub(super) fn unpack(bytes: &[u8], name: &str) -> Result<Raw, Error> {
+pub(crate) fn unpack(bytes: &[u8], name: &str) -> Result<Raw, Error> {
     if tiff::is_tiff(bytes) {
         return first_page(bytes, name);
+    }
+    if jpeg::is_jpeg(bytes) {
+        return read_jpeg(bytes, name);
     }
     let refuse = |e| refused(name, e);
     if let Some(kind) = foreign(bytes) {
@@ -41,9 +53,6 @@ pub(super) fn unpack(bytes: &[u8], name: &str) -> Result<Raw, Error> {
     };
     let (width, height) = open()?.into_dimensions().map_err(refuse)?;
     check_size(name, width as usize, height as usize)?;
-    if jpeg::breaks_off(bytes) {
-        return Err(unreadable(name, "the file is cut short"));
-    }
     let mut decoder = open()?.into_decoder().map_err(refuse)?;
     let exif = decoder.exif_metadata().ok().flatten();
     let upright = decoder.orientation().map_err(refuse)?;
@@ -53,6 +62,42 @@ pub(super) fn unpack(bytes: &[u8], name: &str) -> Result<Raw, Error> {
         orientation: upright.to_exif(),
         lens,
         ..raw(picture)
+    })
+}
+
+fn read_jpeg(bytes: &[u8], name: &str) -> Result<Raw, Error> {
+    let refuse = |error| match error {
+        DecodeErrors::Unsupported(_) => unreadable(name, SELDOM),
+        DecodeErrors::LargeDimensions(_) => Error::TooLarge {
+            name: name.to_owned(),
+        },
+        _ => damaged(name),
+    };
+    let options = DecoderOptions::default()
+        .set_strict_mode(false)
+        .set_max_width(usize::MAX)
+        .set_max_height(usize::MAX);
+    // Of the type that pages of TIFF files have as well, or the decoder would be there twice.
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes.to_vec()), options);
+    decoder.decode_headers().map_err(refuse)?;
+    let size = decoder.dimensions().ok_or_else(|| damaged(name))?;
+    check_size(name, size.0, size.1)?;
+    if jpeg::breaks_off(bytes) {
+        return Err(unreadable(name, "the file is cut short"));
+    }
+    let (channels, colours) = match decoder.input_colorspace() {
+        Some(ColorSpace::Luma) => (1, ColorSpace::Luma),
+        _ => (3, ColorSpace::RGB),
+    };
+    decoder.set_options(options.jpeg_set_out_colorspace(colours));
+    let data = decoder.decode().map_err(refuse)?;
+    let exif = decoder.exif().cloned();
+    Ok(Raw {
+        size,
+        channels,
+        samples: Samples::Bytes(data),
+        orientation: exif.clone().map_or(UPRIGHT, orientation),
+        lens: exif.and_then(|exif| Lens::of_exif(exif, size.0, size.1)),
     })
 }
 
@@ -108,10 +153,7 @@ pub(super) fn refused(name: &str, error: ImageError) -> Error {
         ImageError::Limits(_) => Error::TooLarge {
             name: name.to_owned(),
         },
-        ImageError::Unsupported(_) => unreadable(
-            name,
-            "its pixels are stored in a way that is seldom used; save it as grey or RGB of 8 or 16 bits",
-        ),
+        ImageError::Unsupported(_) => unreadable(name, SELDOM),
         _ => damaged(name),
     }
 }

@@ -20,7 +20,7 @@ use crate::error::Error;
 ///
 /// # Errors
 /// Those of [`super::Frame::decode`].
-pub(super) fn each_picture(bytes: &[u8], name: &str, take: Take) -> Result<Contents, Error> {
+pub(crate) fn each_picture(bytes: &[u8], name: &str, take: Take) -> Result<Contents, Error> {
     if tiff::is_tiff(bytes) {
         return pages(bytes, name, take);
     }

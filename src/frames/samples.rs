@@ -49,7 +49,7 @@ impl Raw {
     }
 
     fn frame_of<S: Sample>(&self, data: &[S]) -> Frame {
-        frame_of_rows(self.upright_size(), self.channels, |y, row| {
+        frame_of_rows(self.upright_size(), self.channels, &mut |y, row| {
             self.row(data, y, row);
         })
     }
@@ -93,10 +93,10 @@ impl Raw {
 pub(crate) fn frame_of_rows<S: Sample>(
     (width, height): (usize, usize),
     channels: usize,
-    mut read: impl FnMut(usize, &mut [S]),
+    read: &mut dyn FnMut(usize, &mut [S]),
 ) -> Frame {
     let mut samples = vec![S::default(); channels * width];
-    let mut frame = Frame::from_rows(width, height, |y, out, known| {
+    let mut frame = Frame::from_rows(width, height, &mut |y, out, known| {
         read(y, &mut samples);
         let pixels = samples.chunks_exact(channels);
         for ((p, out), known) in pixels.zip(out).zip(known) {

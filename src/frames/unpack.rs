@@ -91,7 +91,7 @@ pub(super) fn refused(name: &str, refused: png::Refused) -> Error {
     }
 }
 
-pub(super) fn check_length(bytes: &[u8], name: &str) -> Result<(), Error> {
+pub(crate) fn check_length(bytes: &[u8], name: &str) -> Result<(), Error> {
     if bytes.is_empty() {
         return Err(unreadable(name, "the file is empty"));
     }

@@ -6,7 +6,7 @@ use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::frames::{
-    Contents, Kind, LensSource, Raw, Sample, Samples, each_picture, unpack_one, views,
+    Contents, Kind, LensSource, Raw, Sample, Samples, check_length, others, pictures, views,
 };
 
 /// A picture of a file, upright.
@@ -102,6 +102,7 @@ impl Opened {
 /// `name` is what errors call the file.
 #[wasm_bindgen]
 pub fn unpack(bytes: &[u8], name: &str, all: bool, take: &Function) -> Result<Opened, JsValue> {
+    check_length(bytes, name)?;
     let mut thrown = None;
     let mut hand = |raw: Raw, seconds: f64| {
         let room = take.call1(&JsValue::NULL, &Unpacked { raw, seconds }.into());
@@ -114,9 +115,9 @@ pub fn unpack(bytes: &[u8], name: &str, all: bool, take: &Function) -> Result<Op
         )
     };
     let contents = if all {
-        each_picture(bytes, name, &mut hand)?
+        pictures::each_picture(bytes, name, &mut hand)?
     } else {
-        hand(unpack_one(bytes, name)?, 0.0);
+        hand(others::unpack(bytes, name)?, 0.0);
         Contents {
             kind: Kind::Still,
             cut: false,

@@ -169,7 +169,7 @@ fn of_rows<S: Sample, const N: usize>(
     let channels = picture.channels().clamp(1, 4);
     let mut bytes = vec![0u8; N * channels * size.0];
     let mut thrown = None;
-    let frame = frame_of_rows(size, channels, |y, row| match picture.row(y) {
+    let frame = frame_of_rows(size, channels, &mut |y, row| match picture.row(y) {
         Ok(given) if given.length() as usize == bytes.len() => {
             given.copy_to(&mut bytes);
             for (to, from) in row.iter_mut().zip(bytes.as_chunks::<N>().0) {
