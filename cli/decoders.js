@@ -13,7 +13,7 @@ export const decoders = {
       if (!(error instanceof WebAssembly.RuntimeError)) throw error;
       // A decoder that gives up has broken nothing but itself.
       const reason = panicMessage() || "it is damaged, or takes more memory than there is";
-      const message = `${name} cannot be read as an image: ${reason}`;
+      const message = `${name} cannot be read as an image (${reason})`;
       throw Object.assign(new Error(message), { name: "InputError" });
     } finally {
       startAnew();

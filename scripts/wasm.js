@@ -29,6 +29,9 @@ const FEATURES = [
   "simd",
 ].map((feature) => `--enable-${feature}`);
 
+// Less is inlined than usual: 90 kB less, and no slower.
+const INLINING = "-Cllvm-args=-inline-threshold=60";
+
 /** @typedef {{ name: string, feature: string, settings: Record<string, string>, binding: string[] }} Module */
 
 /** @type {Module} */
@@ -73,9 +76,10 @@ export async function benchWasm() {
 function made(folder, targets, { name, feature, settings, binding }) {
   return stage(`WebAssembly: compile, bind, optimise ${name}`, async () => {
     const target = "wasm32-unknown-unknown";
-    const lib = ["build", "--locked", "--release", "--lib", "--no-default-features"];
-    const words = ["--features", feature, "--target", target, "--target-dir", targets];
-    await run("cargo", [...lib, ...words], settings);
+    const lib = ["rustc", "--locked", "--release", "--lib", "--crate-type", "cdylib"];
+    const words = ["--no-default-features", "--features", feature];
+    const where = ["--target", target, "--target-dir", targets];
+    await run("cargo", [...lib, ...words, ...where, "--", INLINING], settings);
     const built = join(targets, target, "release/relievo.wasm");
     const bind = ["--target", "web", "--out-dir", folder, "--out-name", name, ...binding];
     await run("wasm-bindgen", [...bind, built]);

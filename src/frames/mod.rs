@@ -14,9 +14,9 @@ mod levels;
 mod lighting;
 mod note;
 #[cfg(feature = "decoders")]
-mod others;
+pub(crate) mod others;
 #[cfg(feature = "decoders")]
-mod pictures;
+pub(crate) mod pictures;
 mod pyramid;
 mod samples;
 mod shrink;
@@ -37,6 +37,8 @@ pub(crate) use frame::check_size;
 pub(crate) use frame::least_factor;
 pub use frame::{Frame, FramePair, MAX_PIXELS, MAX_SIDE, MIN_SIDE, MOST_WORKED};
 pub use gaussian::blur;
+#[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
+pub(crate) use jpeg::views;
 pub use lens::{Lens, LensSource};
 pub use lighting::Lighting;
 pub use note::Note;
@@ -56,5 +58,3 @@ pub(crate) use spline::{LANES, Spline};
 pub(crate) use unpack::check_length;
 #[cfg(all(target_arch = "wasm32", feature = "javascript"))]
 pub(crate) use unpack::each_picture;
-#[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
-pub(crate) use {jpeg::views, others, pictures};
