@@ -58,6 +58,9 @@ pub struct Frame {
     pub(super) step: f32,
 }
 
+/// Writes row `y`: colours, and whether there is a picture.
+type Fill<'a> = &'a mut dyn FnMut(usize, &mut [[f32; 3]], &mut [bool]);
+
 impl Frame {
     /// A frame of 8-bit sRGB values with alpha, four bytes a pixel in row order. Transparent parts are shown on mid
     /// grey, and are unknown where alpha is 0.
@@ -112,11 +115,7 @@ impl Frame {
     }
 
     /// A frame whose rows `fill(y, colours, known)` writes: sRGB 0–255, not rounded, and whether there is a picture.
-    pub(super) fn from_rows(
-        width: usize,
-        height: usize,
-        fill: &mut dyn FnMut(usize, &mut [[f32; 3]], &mut [bool]),
-    ) -> Self {
+    pub(super) fn from_rows(width: usize, height: usize, fill: Fill) -> Self {
         let n = least_factor(width * height);
         let mut rgb = Vec::with_capacity(width * height);
         let mut grey = Grid::new(width / n, height / n, 0.0f32);

@@ -52,7 +52,7 @@ fn tested(candidates: Candidates, frame: [usize; 2]) -> Option<Vec<Shape>> {
             each.max_by(|a, b| a.share.total_cmp(&b.share))
         })
         .collect();
-    let mut curves = ordered(curves, |curve| -f64::from(curve.share));
+    let mut curves = ordered(curves, |curve| -curve.share);
     curves.truncate(MAX_CURVES);
     let polygons = curves.into_iter().map(|outline| Shape::Polygon {
         points: outline.corners,
