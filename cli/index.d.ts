@@ -30,3 +30,9 @@ export * from "../pkg/relievo.js";
  * all is loaded already.
  */
 export default function init(from?: InitInput | Promise<InitInput>): Promise<void>;
+
+/**
+ * Loads what opens files that are no PNG, after `init()`: `Frame.decode` and `decodeAll` of such files need it. `from` is
+ * as in `init`. In Node it is loaded with the first of them.
+ */
+export function loadDecoders(from?: InitInput | Promise<InitInput>): Promise<void>;

@@ -1,6 +1,6 @@
 // Relievo as a library for browsers: a page or a worker waits for `init()`, then uses what the WebAssembly exports.
 
-import load from "../pkg/relievo.js";
+import load, { useDecoders } from "../pkg/relievo.js";
 
 // A module of one function that needs SIMD.
 const SIMD = [
@@ -18,6 +18,18 @@ export default async function init(from) {
     );
   }
   await load(from === undefined ? undefined : { module_or_path: from });
+}
+
+/**
+ * @param {import("../pkg/relievo.js").InitInput | Promise<import("../pkg/relievo.js").InitInput>} [from]
+ */
+export async function loadDecoders(from) {
+  const [{ default: load }, { decoders }] = await Promise.all([
+    import("../pkg/relievo_decoders.js"),
+    import("./decoders.js"),
+  ]);
+  await load(from === undefined ? undefined : { module_or_path: from });
+  useDecoders(decoders);
 }
 
 export * from "../pkg/relievo.js";

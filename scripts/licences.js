@@ -28,7 +28,13 @@ const ACCEPTED = [
 
 /** Crates that end up in the WebAssembly: what the crate needs when it runs, without macros. */
 function crates() {
-  const options = ["--locked", "--format-version", "1", "--features", "javascript"];
+  const options = [
+    "--locked",
+    "--format-version",
+    "1",
+    "--features",
+    "javascript,javascript-decoders",
+  ];
   const target = ["--filter-platform", "wasm32-unknown-unknown"];
   const text = ask("cargo", "metadata", ...options, ...target);
   if (text === null)

@@ -32,6 +32,8 @@ const FILES = {
   "pkg/relievo.js": "pkg/relievo.js",
   "pkg/relievo.d.ts": "pkg/relievo.d.ts",
   "pkg/relievo_bg.wasm": "pkg/relievo_bg.wasm",
+  "pkg/relievo_decoders.js": "pkg/relievo_decoders.js",
+  "pkg/relievo_decoders_bg.wasm": "pkg/relievo_decoders_bg.wasm",
   "CHANGELOG.md": "CHANGELOG.md",
   "LICENSE-APACHE": "LICENSE-APACHE",
   "LICENSE-MIT": "LICENSE-MIT",

@@ -29,7 +29,12 @@ const STAGES = [
   ],
   [
     "rust lint for wasm",
-    () => run("cargo", ["clippy", "--locked", "--lib", "--features", "bench", ...WASM, ...DENY]),
+    async () => {
+      const lint = ["clippy", "--locked", "--lib", "--no-default-features"];
+      for (const feature of ["bench", "javascript-decoders"]) {
+        await run("cargo", [...lint, "--features", feature, ...WASM, ...DENY]);
+      }
+    },
   ],
   [
     "rust docs",

@@ -49,7 +49,8 @@
 //!
 //! - `decoders` (on): frames from JPEG, PNM, WebP, BMP, GIF and TIFF files, films and EXIF data; without it from PNG files only.
 //! - `scenes` (on): [`scene`], the built-in sequences with their truth.
-//! - `javascript`: what JavaScript sees of it, for `wasm32-unknown-unknown` only.
+//! - `javascript`: what JavaScript sees of it, for `wasm32-unknown-unknown` only; `javascript-decoders`: the same of what
+//!   opens files, for a module of its own.
 //!
 //! # Versions
 //!
@@ -80,6 +81,7 @@ mod layered;
 mod linalg;
 mod motion_model;
 pub mod options;
+mod ordered;
 pub mod paper;
 pub mod probe;
 #[cfg(feature = "scenes")]
@@ -105,5 +107,8 @@ pub use options::Options;
 pub use solver::{Solver, Status};
 pub use window::Window;
 
-#[cfg(all(target_arch = "wasm32", feature = "javascript"))]
+#[cfg(all(
+    target_arch = "wasm32",
+    any(feature = "javascript", feature = "javascript-decoders")
+))]
 pub mod wasm;

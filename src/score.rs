@@ -383,7 +383,7 @@ fn is_depth(depth: f64) -> bool {
 fn factor(pairs: &[(f64, f64)]) -> Option<f64> {
     let known = pairs.iter().filter(|(depth, _)| is_depth(*depth));
     let mut ratios: Vec<f64> = known.map(|(depth, z)| z / depth).collect();
-    ratios.sort_by(f64::total_cmp);
+    ratios.sort_unstable_by(f64::total_cmp);
     let middle = ratios.len() / 2;
     match ratios.len() {
         0 => None,

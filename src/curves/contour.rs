@@ -9,6 +9,7 @@ use serde::Serialize;
 use std::collections::HashMap;
 
 use crate::grid::Grid;
+use crate::ordered::ordered;
 
 /// A sub-pixel polyline around (a part of) a region.
 ///
@@ -100,8 +101,7 @@ pub fn contours(level_set: &Grid<f32>, label: u8) -> Vec<Contour> {
             });
         }
     }
-    found.sort_by_key(|c| std::cmp::Reverse(c.points.len()));
-    found
+    ordered(found, |contour| -(contour.points.len() as f64))
 }
 
 /// The line between two neighbouring pixels of the padded level set.

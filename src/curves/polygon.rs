@@ -52,7 +52,7 @@ pub(super) fn level_set(corners: &[Point], width: usize, height: usize) -> Grid<
     nearest(&all, Window::whole(width, height), &mut phi);
     for y in 0..height {
         let mut beyond: Vec<f64> = all.iter().filter_map(|&s| crossing(s, y as f64)).collect();
-        beyond.sort_by(f64::total_cmp);
+        beyond.sort_unstable_by(f64::total_cmp);
         let mut passed = 0;
         for x in 0..width {
             while beyond.get(passed).is_some_and(|&at| at <= x as f64) {

@@ -4,11 +4,8 @@
 //! tells as `depth_scale`, makes the most of the range: the farthest depth is 65535, unless most pixels would then be
 //! known less well than to one part in 4096. PFM (`pfm.rs`) keeps every bit instead.
 
-use std::io::Cursor;
-
-use image::{DynamicImage, ImageFormat, ImageReader};
-
-use super::{bounded, png, unreadable};
+use super::png::{self, Samples, Unread, wrong};
+use super::{bounded, unreadable};
 use crate::error::Error;
 use crate::grid::Grid;
 
@@ -50,14 +47,14 @@ pub fn write(depth: &Grid<f32>, scale: f64) -> Result<Vec<u8>, Error> {
 /// # Errors
 /// [`Error::File`] for anything else, and for sides above the largest frame's.
 pub fn read(bytes: &[u8], name: &str) -> Result<Grid<f32>, Error> {
-    let wrong = |reason: String| unreadable(name, FORMAT, reason);
-    let open = || ImageReader::with_format(Cursor::new(bytes), ImageFormat::Png);
-    let size = open().into_dimensions().map_err(|e| wrong(e.to_string()))?;
-    let (width, height) = bounded(name, FORMAT, size.0.into(), size.1.into())?;
-    let DynamicImage::ImageLuma16(picture) = open().decode().map_err(|e| wrong(e.to_string()))?
-    else {
-        return Err(wrong(
-            "its pixels are not one 16-bit number each".to_owned(),
+    let file = Unread::open(bytes).map_err(|e| wrong(name, FORMAT, e))?;
+    let (width, height) = bounded(name, FORMAT, file.width.into(), file.height.into())?;
+    let picture = file.read().map_err(|e| wrong(name, FORMAT, e))?;
+    let (1, Samples::Words(samples)) = (picture.channels, picture.samples) else {
+        return Err(unreadable(
+            name,
+            FORMAT,
+            "its pixels are not one 16-bit number each",
         ));
     };
     let known = |sample: u16| {
@@ -67,11 +64,7 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Grid<f32>, Error> {
             f32::from(sample)
         }
     };
-    Grid::from_vec(
-        width,
-        height,
-        picture.into_raw().into_iter().map(known).collect(),
-    )
+    Grid::from_vec(width, height, samples.into_iter().map(known).collect())
 }
 
 fn known(z: f32) -> bool {

@@ -10,6 +10,7 @@ use crate::camera::{Camera, RigidMotion};
 use crate::error::Error;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
+use crate::ordered::ordered;
 
 /// The contents of the files of a result.
 ///
@@ -137,8 +138,7 @@ pub(super) fn motions_of(
     file: &MotionFile,
     labels: Option<&Grid<u8>>,
 ) -> Result<Vec<RigidMotion>, Error> {
-    let mut regions = file.regions.clone();
-    regions.sort_by_key(|region| region.label);
+    let regions = ordered(file.regions.clone(), |region| f64::from(region.label));
     let numbered = regions
         .iter()
         .enumerate()

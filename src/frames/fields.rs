@@ -72,7 +72,7 @@ impl Frame {
         let (width, height) = (self.width() / 2, self.height() / 2);
         check_size("a field of the frame", width, height)?;
         let field = |near: usize, far: isize| {
-            let mut fields = Self::from_rows(width, height, |k, out, _| {
+            let mut fields = Self::from_rows(width, height, &mut |k, out, _| {
                 let last = 2 * (height as isize - 1) + near as isize;
                 let other = 2 * k as isize + near as isize + far;
                 let other = if (near as isize..=last).contains(&other) {

@@ -1,23 +1,11 @@
-//! Files that hold more than one picture: animations, pairs of views, pages.
+//! Files that hold more than one picture: what is kept of them.
 //!
-//! Frames of an animation are whole pictures, as long as each is shown beside it. An MPO file is one JPEG after
-//! another; of those that follow the first, views are those of its size, and smaller ones (thumbnails, gain maps) are not.
 //! Frames count up to [`MOST_PIXELS`] pixels together.
 
-use image::codecs::gif::GifDecoder;
-use image::codecs::png::PngDecoder;
-use image::codecs::webp::WebPDecoder;
-use image::metadata::Orientation;
-use image::{AnimationDecoder, DynamicImage, ImageDecoder, ImageFormat};
-use std::io::Cursor;
-
-use super::decode::{check_length, format_of, limits, refused, unreadable};
-use super::frame::{Frame, check_size};
-use super::jpeg;
+use super::frame::Frame;
 use super::samples::Raw;
-use super::tiff::{self, Pages};
+use super::unpack::{each_picture, unreadable};
 use crate::error::Error;
-use crate::file::png;
 
 /// Pixels of all frames together at most: 350 MB.
 const MOST_PIXELS: usize = 50_000_000;
@@ -33,6 +21,23 @@ pub enum Kind {
     Views,
     /// They are pages of one document, which may be a film.
     Pages,
+}
+
+impl Kind {
+    /// All there are.
+    #[cfg(all(target_arch = "wasm32", feature = "javascript"))]
+    pub(crate) const ALL: [Self; 4] = [Self::Still, Self::Animation, Self::Views, Self::Pages];
+
+    /// What JavaScript calls it.
+    #[cfg(target_arch = "wasm32")]
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Still => "still",
+            Self::Animation => "animation",
+            Self::Views => "views",
+            Self::Pages => "pages",
+        }
+    }
 }
 
 /// A picture of a file.
@@ -55,6 +60,16 @@ pub struct Film {
     pub cut: bool,
 }
 
+/// Takes a picture and the seconds for which it is shown, 0 where the file does not say; whether there is room for more.
+pub(crate) type Take<'a> = &'a mut dyn FnMut(Raw, f64) -> bool;
+
+/// What a file holds, besides its pictures.
+pub(crate) struct Contents {
+    pub kind: Kind,
+    /// Whether it holds more than can be read.
+    pub cut: bool,
+}
+
 impl Film {
     /// Reads all pictures of a file: of an animated GIF, PNG or WebP, of an MPO file, or the pages of a TIFF file; else the one
     /// that [`Frame::decode`] reads. `name` is what error messages call it.
@@ -62,88 +77,24 @@ impl Film {
     /// # Errors
     /// Those of [`Frame::decode`].
     pub fn decode(bytes: &[u8], name: &str) -> Result<Self, Error> {
-        check_length(bytes, name)?;
-        if tiff::is_tiff(bytes) {
-            return pages(bytes, name);
-        }
-        let refuse = |e| refused(name, e);
-        let cursor = || Cursor::new(bytes);
-        match format_of(bytes) {
-            Some(ImageFormat::Gif) => {
-                let mut decoder = GifDecoder::new(cursor()).map_err(refuse)?;
-                animation(&mut decoder, name)?;
-                Self::of_animation(decoder, name)
-            }
-            Some(ImageFormat::WebP) => {
-                let mut decoder = WebPDecoder::new(cursor()).map_err(refuse)?;
-                animation(&mut decoder, name)?;
-                if decoder.has_animation() {
-                    return Self::of_animation(decoder, name);
-                }
-                Self::still(bytes, name)
-            }
-            Some(ImageFormat::Png) => {
-                if png::palette_breaks_off(bytes) {
-                    return Err(unreadable(name, "its palette is cut short"));
-                }
-                let mut decoder = PngDecoder::new(cursor()).map_err(refuse)?;
-                animation(&mut decoder, name)?;
-                if decoder.is_apng().map_err(refuse)? {
-                    return Self::of_animation(decoder.apng().map_err(refuse)?, name);
-                }
-                Self::still(bytes, name)
-            }
-            Some(ImageFormat::Jpeg) => views(bytes, name),
-            _ => Self::still(bytes, name),
-        }
+        let mut film = Self::new();
+        let contents = each_picture(bytes, name, &mut |raw, seconds| {
+            film.add(raw.frame(), seconds)
+        })?;
+        film.finished(contents, name)
     }
 
-    fn still(bytes: &[u8], name: &str) -> Result<Self, Error> {
-        Ok(Self {
-            moments: vec![Moment {
-                frame: Frame::decode(bytes, name)?,
-                seconds: 0.0,
-            }],
-            kind: Kind::Still,
-            cut: false,
-        })
-    }
-
-    fn of_animation<'a>(decoder: impl AnimationDecoder<'a>, name: &str) -> Result<Self, Error> {
-        let mut film = Film::new(Kind::Animation);
-        for shown in decoder.into_frames() {
-            let shown = match shown {
-                Ok(shown) => shown,
-                // What came before the damage is worth having.
-                Err(_) if film.moments.len() > 1 => {
-                    film.cut = true;
-                    break;
-                }
-                Err(e) => return Err(refused(name, e)),
-            };
-            let (milliseconds, per) = shown.delay().numer_denom_ms();
-            let picture = DynamicImage::ImageRgba8(shown.into_buffer());
-            let frame = Raw::new(picture, Orientation::NoTransforms).frame();
-            if !film.add(
-                frame,
-                f64::from(milliseconds) / f64::from(per.max(1)) / 1000.0,
-            ) {
-                break;
-            }
-        }
-        film.finished(name)
-    }
-
-    fn new(kind: Kind) -> Self {
+    /// A film without pictures.
+    pub(crate) fn new() -> Self {
         Self {
             moments: Vec::new(),
-            kind,
+            kind: Kind::Still,
             cut: false,
         }
     }
 
     /// Adds a picture, unless it is of another size; whether there is room for more.
-    fn add(&mut self, frame: Frame, seconds: f64) -> bool {
+    pub(crate) fn add(&mut self, frame: Frame, seconds: f64) -> bool {
         let alike = |first: &Moment| first.frame.rgb.same_size(&frame.rgb);
         let (pixels, count) = (frame.rgb.len(), self.moments.len());
         if self.moments.first().is_none_or(alike) {
@@ -156,59 +107,14 @@ impl Film {
         true
     }
 
-    fn finished(mut self, name: &str) -> Result<Self, Error> {
-        match self.moments.len() {
+    /// The film, once all pictures are in it.
+    pub(crate) fn finished(mut self, contents: Contents, name: &str) -> Result<Self, Error> {
+        self.cut |= contents.cut;
+        self.kind = match self.moments.len() {
             0 => return Err(unreadable(name, "there is no picture in it")),
-            1 => self.kind = Kind::Still,
-            _ => {}
-        }
+            1 => Kind::Still,
+            _ => contents.kind,
+        };
         Ok(self)
     }
-}
-
-/// Checks the size of an animation and bounds its memory.
-fn animation(decoder: &mut impl ImageDecoder, name: &str) -> Result<(), Error> {
-    let (width, height) = decoder.dimensions();
-    check_size(name, width as usize, height as usize)?;
-    decoder.set_limits(limits()).map_err(|e| refused(name, e))
-}
-
-/// The JPEGs of a file, one behind the other.
-fn views(bytes: &[u8], name: &str) -> Result<Film, Error> {
-    let mut film = Film::still(bytes, name)?;
-    film.kind = Kind::Views;
-    let mut rest = jpeg::behind(bytes);
-    while let Some(next) = rest {
-        // What is no frame, such as a small thumbnail, is passed over.
-        let room = Frame::decode(next, name).map_or(true, |frame| film.add(frame, 0.0));
-        rest = jpeg::behind(next).filter(|_| room);
-    }
-    film.finished(name)
-}
-
-fn pages(bytes: &[u8], name: &str) -> Result<Film, Error> {
-    let refuse = |e: tiff::Refused| e.error(name);
-    let mut pages = Pages::open(bytes).map_err(refuse)?;
-    let mut film = Film::new(Kind::Pages);
-    loop {
-        let first = film.moments.is_empty();
-        let page = pages.size().map(|(width, height)| {
-            let size = check_size(name, width as usize, height as usize);
-            size.map(|()| pages.read())
-        });
-        match page.map_err(refuse).and_then(|page| page?.map_err(refuse)) {
-            Ok(raw) => {
-                if !film.add(raw.frame(), 0.0) {
-                    break;
-                }
-            }
-            Err(e) if first => return Err(e),
-            // Thumbnails and what else lies behind.
-            Err(_) => {}
-        }
-        if !pages.more() || pages.next().is_err() {
-            break;
-        }
-    }
-    film.finished(name)
 }

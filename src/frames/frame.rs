@@ -58,6 +58,9 @@ pub struct Frame {
     pub(super) step: f32,
 }
 
+/// Writes row `y`: colours, and whether there is a picture.
+type Fill<'a> = &'a mut dyn FnMut(usize, &mut [[f32; 3]], &mut [bool]);
+
 impl Frame {
     /// A frame of 8-bit sRGB values with alpha, four bytes a pixel in row order. Transparent parts are shown on mid
     /// grey, and are unknown where alpha is 0.
@@ -77,7 +80,7 @@ impl Frame {
             });
         }
         let row = |y: usize| &bytes[4 * width * y..4 * width * (y + 1)];
-        Ok(Self::from_rows(width, height, |y, out, known| {
+        Ok(Self::from_rows(width, height, &mut |y, out, known| {
             for ((out, known), p) in out.iter_mut().zip(known).zip(row(y).chunks_exact(4)) {
                 *out = over_grey([p[0], p[1], p[2], p[3]].map(f32::from));
                 *known = p[3] > 0;
@@ -106,17 +109,13 @@ impl Frame {
     /// A frame of sRGB colours 0–255 that need not be whole numbers; sizes must agree.
     #[cfg(feature = "scenes")]
     pub(crate) fn from_colours(width: usize, height: usize, colours: &[[f32; 3]]) -> Self {
-        Self::from_rows(width, height, |y, out, _| {
+        Self::from_rows(width, height, &mut |y, out, _| {
             out.copy_from_slice(&colours[y * width..(y + 1) * width]);
         })
     }
 
     /// A frame whose rows `fill(y, colours, known)` writes: sRGB 0–255, not rounded, and whether there is a picture.
-    pub(super) fn from_rows(
-        width: usize,
-        height: usize,
-        mut fill: impl FnMut(usize, &mut [[f32; 3]], &mut [bool]),
-    ) -> Self {
+    pub(super) fn from_rows(width: usize, height: usize, fill: Fill) -> Self {
         let n = least_factor(width * height);
         let mut rgb = Vec::with_capacity(width * height);
         let mut grey = Grid::new(width / n, height / n, 0.0f32);

@@ -8,15 +8,12 @@
 //! side is the longer side of the frame, side₀ that of the photo when it was taken: a photo that was made smaller since has
 //! a smaller f. A photo that was cropped since has not, and its data do not say so.
 
-#[cfg(feature = "decoders")]
 use exif::{Exif, In, Reader, Tag, Value};
 use serde::Serialize;
 
 /// Width of a frame of 35 mm film, mm.
-#[cfg(feature = "decoders")]
 const FILM: f64 = 36.0;
 /// Focal lengths that lenses have, in shares of the longer side.
-#[cfg(feature = "decoders")]
 const PLAUSIBLE: std::ops::RangeInclusive<f64> = 0.1..=100.0;
 /// TIFF files of more bytes are not searched.
 #[cfg(feature = "decoders")]
@@ -63,7 +60,6 @@ impl std::fmt::Display for Lens {
 
 impl Lens {
     /// Of an EXIF block and the size of the frame.
-    #[cfg(feature = "decoders")]
     pub(super) fn of_exif(block: Vec<u8>, width: usize, height: usize) -> Option<Self> {
         let data = Reader::new().read_raw(block).ok()?;
         let side = width.max(height) as f64;
@@ -87,7 +83,6 @@ impl Lens {
     }
 }
 
-#[cfg(feature = "decoders")]
 fn of_film(data: &Exif, side: f64) -> Option<Lens> {
     let millimetres = number(data, Tag::FocalLengthIn35mmFilm)?;
     Some(Lens {
@@ -97,7 +92,6 @@ fn of_film(data: &Exif, side: f64) -> Option<Lens> {
     })
 }
 
-#[cfg(feature = "decoders")]
 fn of_sensor(data: &Exif, side: f64) -> Option<Lens> {
     let millimetres = number(data, Tag::FocalLength)?;
     let resolution = number(data, Tag::FocalPlaneXResolution)?;
@@ -121,11 +115,21 @@ fn of_sensor(data: &Exif, side: f64) -> Option<Lens> {
 }
 
 /// A number above 0.
-#[cfg(feature = "decoders")]
 fn number(data: &Exif, tag: Tag) -> Option<f64> {
     let value = match &data.get_field(tag, In::PRIMARY)?.value {
         Value::Rational(all) => all.first()?.to_f64(),
         other => f64::from(other.get_uint(0)?),
     };
     (value.is_finite() && value > 0.0).then_some(value)
+}
+
+/// What makes a picture with these EXIF data stand upright, 1–8 as EXIF counts.
+pub(super) fn orientation(block: Vec<u8>) -> u8 {
+    let data = Reader::new().read_raw(block).ok();
+    let found = data.and_then(|data| {
+        data.get_field(Tag::Orientation, In::PRIMARY)?
+            .value
+            .get_uint(0)
+    });
+    found.and_then(|n| u8::try_from(n).ok()).unwrap_or(1)
 }

@@ -1,106 +1,74 @@
 //! An unpacked picture: samples as its file holds them, turned upright on their way into a frame.
 
-use image::DynamicImage;
-use image::metadata::Orientation;
-
 use std::sync::Arc;
 
 use super::frame::{Frame, over_grey};
+use super::lens::Lens;
 use super::levels::Levels;
 use crate::grid::Grid;
 
+/// The orientation of a picture that is stored as it is seen, by EXIF's numbers.
+pub(super) const UPRIGHT: u8 = 1;
+
 /// Samples in row order, channel by channel within a pixel.
-pub(super) enum Samples {
+pub(crate) enum Samples {
     /// 0–255.
     Bytes(Vec<u8>),
     /// 0–65535.
     Words(Vec<u16>),
     /// 0–1.
+    #[cfg_attr(not(feature = "decoders"), expect(dead_code))]
     Floats(Vec<f32>),
 }
 
 /// An unpacked picture.
-pub(super) struct Raw {
+pub(crate) struct Raw {
     /// Width and height as stored.
-    pub size: (usize, usize),
+    pub(super) size: (usize, usize),
     /// 1 for grey, 2 for grey and alpha, 3 for RGB, 4 for RGB and alpha.
     pub channels: usize,
     pub samples: Samples,
-    /// What makes it stand upright.
-    pub orientation: Orientation,
+    /// What makes it stand upright, 1–8 as EXIF counts.
+    pub(super) orientation: u8,
+    /// What its file says of the lens.
+    pub lens: Option<Lens>,
 }
 
 impl Raw {
-    pub fn new(picture: DynamicImage, orientation: Orientation) -> Self {
-        let size = (picture.width() as usize, picture.height() as usize);
-        let (channels, samples) = match picture {
-            DynamicImage::ImageLuma8(p) => (1, Samples::Bytes(p.into_raw())),
-            DynamicImage::ImageLumaA8(p) => (2, Samples::Bytes(p.into_raw())),
-            DynamicImage::ImageRgb8(p) => (3, Samples::Bytes(p.into_raw())),
-            DynamicImage::ImageRgba8(p) => (4, Samples::Bytes(p.into_raw())),
-            DynamicImage::ImageLuma16(p) => (1, Samples::Words(p.into_raw())),
-            DynamicImage::ImageLumaA16(p) => (2, Samples::Words(p.into_raw())),
-            DynamicImage::ImageRgb16(p) => (3, Samples::Words(p.into_raw())),
-            DynamicImage::ImageRgba16(p) => (4, Samples::Words(p.into_raw())),
-            other => (4, Samples::Floats(other.to_rgba32f().into_raw())),
-        };
-        Self {
-            size,
-            channels,
-            samples,
-            orientation,
-        }
-    }
-
     /// The frame that it is.
     pub fn frame(&self) -> Frame {
-        match &self.samples {
+        let frame = match &self.samples {
             Samples::Bytes(data) => self.frame_of(data),
             Samples::Words(data) => self.frame_of(data),
             Samples::Floats(data) => self.frame_of(data),
+        };
+        Frame {
+            lens: self.lens,
+            ..frame
         }
     }
 
     fn frame_of<S: Sample>(&self, data: &[S]) -> Frame {
-        let (width, height) = self.upright_size();
-        let channels = self.channels;
-        let mut frame = Frame::from_rows(width, height, |y, out, known| {
-            for (x, (out, known)) in out.iter_mut().zip(known).enumerate() {
-                let at = channels * self.place(x, y);
-                let p = &data[at..at + channels];
-                let colour = match *p {
-                    [g] | [g, _] => [g.level(); 3],
-                    [r, g, b] | [r, g, b, _] => [r.level(), g.level(), b.level()],
-                    _ => [0.0; 3],
-                };
-                if let &([_, a] | [_, _, _, a]) = p {
-                    let [r, g, b] = colour;
-                    *out = over_grey([r, g, b, a.level()]);
-                    *known = a.level() > 0.0;
-                } else {
-                    *out = colour;
-                }
-            }
-        });
-        frame.step = S::STEP;
-        if S::STEP < 1.0 && Levels::of(&[&frame]).narrow() {
-            let deep = Grid::from_fn(width, height, |x, y| {
-                let p = &data[channels * self.place(x, y)..][..channels];
-                [0, 1, 2].map(|c| p[if channels < 3 { 0 } else { c }].word())
-            });
-            frame.deep = Some(Arc::new(deep));
-        }
-        frame
+        frame_of_rows(self.upright_size(), self.channels, &mut |y, row| {
+            self.row(data, y, row);
+        })
     }
 
-    fn upright_size(&self) -> (usize, usize) {
+    /// Width and height as it is seen.
+    pub fn upright_size(&self) -> (usize, usize) {
         let (width, height) = self.size;
-        match self.orientation {
-            Orientation::Rotate90
-            | Orientation::Rotate270
-            | Orientation::Rotate90FlipH
-            | Orientation::Rotate270FlipH => (height, width),
-            _ => (width, height),
+        if self.orientation > 4 {
+            (height, width)
+        } else {
+            (width, height)
+        }
+    }
+
+    /// Row `y` as it is seen.
+    pub fn row<S: Copy>(&self, data: &[S], y: usize, row: &mut [S]) {
+        for (x, pixel) in row.chunks_exact_mut(self.channels).enumerate() {
+            let at = self.channels * self.place(x, y);
+            pixel.copy_from_slice(&data[at..at + self.channels]);
         }
     }
 
@@ -108,21 +76,61 @@ impl Raw {
     fn place(&self, x: usize, y: usize) -> usize {
         let (w, h) = self.size;
         let (from_x, from_y) = match self.orientation {
-            Orientation::NoTransforms => (x, y),
-            Orientation::FlipHorizontal => (w - 1 - x, y),
-            Orientation::FlipVertical => (x, h - 1 - y),
-            Orientation::Rotate180 => (w - 1 - x, h - 1 - y),
-            Orientation::Rotate90 => (y, h - 1 - x),
-            Orientation::Rotate270 => (w - 1 - y, x),
-            Orientation::Rotate90FlipH => (y, x),
-            Orientation::Rotate270FlipH => (w - 1 - y, h - 1 - x),
+            2 => (w - 1 - x, y),
+            3 => (w - 1 - x, h - 1 - y),
+            4 => (x, h - 1 - y),
+            5 => (y, x),
+            6 => (y, h - 1 - x),
+            7 => (w - 1 - y, h - 1 - x),
+            8 => (w - 1 - y, x),
+            _ => (x, y),
         };
         from_y * w + from_x
     }
 }
 
+/// The frame of so many columns and rows whose samples `read(y, row)` tells, row by row.
+pub(crate) fn frame_of_rows<S: Sample>(
+    (width, height): (usize, usize),
+    channels: usize,
+    read: &mut dyn FnMut(usize, &mut [S]),
+) -> Frame {
+    let mut samples = vec![S::default(); channels * width];
+    let mut frame = Frame::from_rows(width, height, &mut |y, out, known| {
+        read(y, &mut samples);
+        let pixels = samples.chunks_exact(channels);
+        for ((p, out), known) in pixels.zip(out).zip(known) {
+            let colour = match *p {
+                [g] | [g, _] => [g.level(); 3],
+                [r, g, b] | [r, g, b, _] => [r.level(), g.level(), b.level()],
+                _ => [0.0; 3],
+            };
+            if let &([_, a] | [_, _, _, a]) = p {
+                let [r, g, b] = colour;
+                *out = over_grey([r, g, b, a.level()]);
+                *known = a.level() > 0.0;
+            } else {
+                *out = colour;
+            }
+        }
+    });
+    frame.step = S::STEP;
+    if S::STEP < 1.0 && Levels::of(&[&frame]).narrow() {
+        let mut deep = Grid::new(width, height, [0u16; 3]);
+        for y in 0..height {
+            read(y, &mut samples);
+            let pixels = samples.chunks_exact(channels);
+            for (p, deep) in pixels.zip(deep.row_mut(y)) {
+                *deep = [0, 1, 2].map(|c| p[if channels < 3 { 0 } else { c }].word());
+            }
+        }
+        frame.deep = Some(Arc::new(deep));
+    }
+    frame
+}
+
 /// A sample as a file holds it.
-trait Sample: Copy {
+pub(crate) trait Sample: Copy + Default {
     /// Grey levels in a step.
     const STEP: f32;
 

@@ -3,16 +3,16 @@
 //! Grey of 1 to 16 bits, palettes, RGB, CMYK, YCbCr and JPEG inside, chunky or in planes; floating point counts from 0 to 1.
 //! The decoder refuses palettes, so they are given to it as grey: its samples are then the numbers of their colours.
 
-use image::metadata::Orientation;
 use std::borrow::Cow;
 use std::io::Cursor;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 use tiff::{ColorType, TiffError};
 
-use super::decode::{MOST_BYTES, unreadable};
-use super::samples::{Raw, Samples};
+use super::samples::{Raw, Samples, UPRIGHT};
+use super::unpack::unreadable;
 use crate::error::Error;
+use crate::file::png::MOST_BYTES;
 
 /// Whether the bytes begin as a TIFF file does, of 32 or of 64 bits.
 pub(super) fn is_tiff(bytes: &[u8]) -> bool {
@@ -50,8 +50,8 @@ impl<'a> Pages<'a> {
     /// Opens a file at its first picture.
     pub fn open(bytes: &'a [u8]) -> Result<Self, Refused> {
         let mut limits = Limits::default();
-        limits.decoding_buffer_size = MOST_BYTES as usize;
-        limits.intermediate_buffer_size = MOST_BYTES as usize;
+        limits.decoding_buffer_size = MOST_BYTES;
+        limits.intermediate_buffer_size = MOST_BYTES;
         let decoder = Decoder::new(Cursor::new(as_grey(bytes)))?.with_limits(limits);
         Ok(Self { decoder })
     }
@@ -77,7 +77,6 @@ impl<'a> Pages<'a> {
         let size = (width as usize, height as usize);
         let colour = self.decoder.colortype()?;
         let orientation = self.decoder.find_tag_unsigned::<u8>(Tag::Orientation)?;
-        let orientation = orientation.and_then(Orientation::from_exif);
         let table = self.decoder.find_tag_unsigned_vec::<u16>(Tag::ColorMap)?;
         let mut result = DecodingResult::U8(Vec::new());
         let layout = self.decoder.read_image_to_buffer(&mut result)?;
@@ -128,12 +127,13 @@ impl<'a> Pages<'a> {
         } else {
             samples
         };
-        let orientation = orientation.unwrap_or(Orientation::NoTransforms);
+        let orientation = orientation.unwrap_or(UPRIGHT);
         Ok(Raw {
             size,
             channels,
             samples,
             orientation,
+            lens: None,
         })
     }
 }

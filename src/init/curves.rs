@@ -17,6 +17,7 @@ use super::segments::segments;
 use crate::camera::Camera;
 use crate::frames::FramePair;
 use crate::grid::Grid;
+use crate::ordered::ordered;
 
 /// A body covers at least this share of the lattice.
 const SMALLEST: f64 = 0.008;
@@ -62,7 +63,7 @@ pub(crate) fn candidates(pair: &FramePair, camera: &Camera) -> Option<Candidates
     pieces.retain(|piece| piece.len() >= FEW);
     let mut found = joined(pieces, &samples, &lattice, &camera);
     found.retain(|piece| piece.len() >= fewest);
-    found.sort_by_key(|piece| std::cmp::Reverse(piece.len()));
+    found = ordered(found, |piece| -(piece.len() as f64));
     found.truncate(MOST);
     let level_set = |body: &Vec<usize>| at_pixels(&field(body, &samples, &lattice), size);
     Some(Candidates {

@@ -75,7 +75,7 @@ pub fn displacement(first: &Grid<f32>, second: &Grid<f32>) -> Displacement {
     let textured = matches(first, first).len();
     let side = first.width().max(first.height()) as f64;
     let mut lengths = holding_together(&found, first);
-    lengths.sort_by(f32::total_cmp);
+    lengths.sort_unstable_by(f32::total_cmp);
     let rank = (QUANTILE * lengths.len().saturating_sub(1) as f64).round() as usize;
     let share = lengths.get(rank).map_or(0.0, |&d| f64::from(d) / side);
     let followed = (lengths.len() as f64 / textured.max(1) as f64).min(1.0);

@@ -23,6 +23,7 @@ use super::rotation::{rotation_alone, turned};
 use crate::camera::{Camera, RigidMotion};
 use crate::linalg::{hemisphere, solve, tangents};
 use crate::motion_model::MotionModel;
+use crate::ordered::ordered;
 
 /// Directions of T tried.
 const DIRECTIONS: usize = 120;
@@ -123,10 +124,10 @@ fn without_translation(pairs: &[Pair], focal: f64) -> Option<EpipolarMotion> {
 fn full(pairs: &[Pair], focal: f64) -> EpipolarMotion {
     let stride = (pairs.len() / SAMPLE).max(1);
     let sample: Vec<Pair> = pairs.iter().copied().step_by(stride).collect();
-    let mut tried: Vec<Start> = hemisphere(DIRECTIONS)
+    let tried: Vec<Start> = hemisphere(DIRECTIONS)
         .map(|t| Start::along(t, &sample, focal))
         .collect();
-    tried.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let tried = ordered(tried, |start| start.cost);
     let mut starts: Vec<Start> = Vec::with_capacity(REFINED);
     for start in tried {
         let new = |s: &Start| s.translation.dot(start.translation).abs() < SAME_DIRECTION;

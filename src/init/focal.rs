@@ -18,6 +18,7 @@ use super::background::{UNEXPLAINED, scenery, whole_motion};
 use super::sample::{Carrier, Sample, small_samples};
 use crate::camera::Camera;
 use crate::frames::FramePair;
+use crate::ordered::ordered;
 
 /// Focal lengths tried, in longer sides of the frame: fields of view of 110° to 10°.
 const SHORTEST: f64 = 0.354;
@@ -92,7 +93,7 @@ pub fn focal_length(pair: &FramePair, camera: &Camera) -> Option<FocalLength> {
         tried.extend([focal / step, focal * step].map(entry));
     }
     let (focal, best) = least(&tried)?;
-    tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let tried = ordered(tried, |(focal, _)| *focal);
     let ends = [tried[0].0, tried[tried.len() - 1].0];
     let likely = |(_, cost): &(f64, f64)| *cost <= best + DOUBTFUL;
     let first = tried.iter().position(likely)?.saturating_sub(1);

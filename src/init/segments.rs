@@ -13,6 +13,7 @@ use super::epipolar::median;
 use super::lattice::{Lattice, centre};
 use super::patches::patches;
 use super::sample::Sample;
+use crate::ordered::ordered;
 
 /// Flows that differ by less, in pixels, continue each other.
 const CONTINUOUS: f64 = 0.15;
@@ -226,7 +227,7 @@ fn by_size(mut of: Vec<Option<usize>>, count: usize) -> Segments {
     let mut sizes = vec![0usize; count];
     of.iter().flatten().for_each(|&s| sizes[s] += 1);
     let mut order: Vec<usize> = (0..count).filter(|&s| sizes[s] > 0).collect();
-    order.sort_by_key(|&s| std::cmp::Reverse(sizes[s]));
+    order = ordered(order, |&s| -(sizes[s] as f64));
     let mut rank = vec![0; count];
     for (new, &old) in order.iter().enumerate() {
         rank[old] = new;

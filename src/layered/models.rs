@@ -18,6 +18,7 @@ use super::estimate::{
 };
 use super::scale::Scale;
 use crate::motion_model::MotionModel;
+use crate::ordered::ordered;
 
 /// What the variance of ρ is charged.
 const RELIEF: f64 = 100.0;
@@ -198,8 +199,8 @@ impl Problem<'_> {
 }
 
 /// The best first; of each model only the best, and the best whose T points elsewhere; none that is far off.
-fn distinct(mut found: Vec<Candidate>, close: f64) -> Vec<Candidate> {
-    found.sort_by(|a, b| a.score.total_cmp(&b.score));
+fn distinct(found: Vec<Candidate>, close: f64) -> Vec<Candidate> {
+    let found = ordered(found, |candidate| candidate.score);
     let Some(best) = found.first() else {
         return found;
     };

@@ -11,6 +11,7 @@ use crate::frames::{Frame, FramePair};
 use crate::init::{Candidates, candidates, outlines};
 use crate::layered::Layered;
 use crate::options::{MAX_CURVES, Options};
+use crate::ordered::ordered;
 
 /// Polygons roughly on the things that move by themselves, the largest first, at most
 /// [`MAX_CURVES`]; none when one rigid motion explains both frames. Corners are in pixels of the frame, inside it, to
@@ -44,14 +45,14 @@ fn tested(candidates: Candidates, frame: [usize; 2]) -> Option<Vec<Shape>> {
         candidates.level_sets,
         &options,
     );
-    let mut curves: Vec<_> = found
+    let curves: Vec<_> = found
         .iter()
         .filter_map(|level_set| {
             let each = outlines(level_set, frame).into_iter();
             each.max_by(|a, b| a.share.total_cmp(&b.share))
         })
         .collect();
-    curves.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let mut curves = ordered(curves, |curve| -curve.share);
     curves.truncate(MAX_CURVES);
     let polygons = curves.into_iter().map(|outline| Shape::Polygon {
         points: outline.corners,

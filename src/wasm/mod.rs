@@ -1,52 +1,26 @@
 //! What JavaScript sees: the core's own words, passed on.
 //!
-//! Nothing is computed here. Pictures and arrays cross as typed arrays of their own memory (they
-//! stay valid whatever happens to the core afterwards), structured values as JSON text, and every
-//! [`crate::Error`] as a JavaScript `Error` whose message is its sentence. Objects hold memory that
-//! JavaScript's collector frees when it likes: `free()` does it at once.
+//! There are two modules of WebAssembly, each with a feature of its own: that which solves reads PNG files, and asks
+//! for the one that opens others when it meets such a file. Nothing is computed here. Pictures and arrays cross as
+//! typed arrays of their own memory (they stay valid whatever happens to the core afterwards), structured values as
+//! JSON text, and every [`crate::Error`] as a JavaScript `Error` whose message is its sentence. Objects hold memory
+//! that JavaScript's collector frees when it likes: `free()` does it at once.
 
-mod baseline;
-#[cfg(feature = "bench")]
-mod bench;
-mod catalogue;
-mod files;
-mod film;
-mod frame;
-mod kept;
-mod mesh;
+#[cfg(feature = "javascript-decoders")]
+mod decoders;
 mod panic;
-mod scene;
-mod shown;
-mod solver;
-mod start;
-mod truth;
-mod working;
+#[cfg(feature = "javascript")]
+mod solving;
 
-pub use baseline::{Baseline, horn_schunck};
-#[cfg(feature = "bench")]
-pub use bench::Kernels;
-pub use catalogue::{limits, option_catalogue, preset_catalogue, scene_catalogue, view_catalogue};
-pub use files::SavedResult;
-pub use film::{Film, decode_all};
-pub use frame::{Frame, Picture};
-pub use kept::Kept;
-pub use mesh::Mesh;
+#[cfg(feature = "javascript-decoders")]
+pub use decoders::{Opened, Unpacked, unpack, views_of};
 pub use panic::{panic_for_test, panic_message};
-pub use scene::Scene;
-pub use solver::Solver;
-pub use start::{displacement, find_curves, find_focal};
-pub use truth::{Truth, file_kind};
-pub use working::working_sizes;
+#[cfg(feature = "javascript")]
+pub use solving::*;
 
-use serde::Serialize;
-use serde::de::DeserializeOwned;
-use wasm_bindgen::prelude::wasm_bindgen;
-use wasm_bindgen::{JsCast, JsValue};
+use wasm_bindgen::JsValue;
 
 use crate::Error;
-use crate::curves::Contour;
-use crate::interpretation::Interpretation;
-use crate::view::{self, ViewParams};
 
 /// An error's `name` tells whose fault it is: `SettingError` for a number or word that no frame could
 /// make right, `InputError` for what is wrong with the frames or does not go with them.
@@ -65,86 +39,4 @@ impl From<Error> for JsValue {
         });
         thrown.into()
     }
-}
-
-#[wasm_bindgen]
-extern "C" {
-    /// A word. Nothing keeps JavaScript from passing something else, which would be read as if it were one.
-    #[wasm_bindgen(typescript_type = "string")]
-    pub type Word;
-
-    /// JSON text, or what it would be parsed to.
-    #[wasm_bindgen(typescript_type = "string | object")]
-    pub type Json;
-}
-
-impl Word {
-    /// The name of a view.
-    fn view(&self) -> Result<String, Error> {
-        self.text("name of the view")
-    }
-
-    /// What was passed; `what` is what an error calls it.
-    fn text(&self, what: &'static str) -> Result<String, Error> {
-        let it: &JsValue = self.as_ref();
-        it.as_string().ok_or_else(|| Error::Json {
-            what,
-            reason: format!("it must be a string, and is {}", kind_of(it)),
-        })
-    }
-}
-
-impl Json {
-    /// The text; `what` is what an error calls it.
-    fn text(&self, what: &'static str) -> Result<String, Error> {
-        let it: &JsValue = self.as_ref();
-        if let Some(text) = it.as_string() {
-            return Ok(text);
-        }
-        let text = it
-            .is_object()
-            .then(|| js_sys::JSON::stringify(it).ok()?.as_string());
-        text.flatten().ok_or_else(|| Error::Json {
-            what,
-            reason: format!("it must be JSON or an object, and is {}", kind_of(it)),
-        })
-    }
-
-    fn view_params(&self) -> Result<ViewParams, Error> {
-        ViewParams::from_json(&self.text("view settings")?)
-    }
-
-    /// The value of type T that it stands for.
-    fn read<T: DeserializeOwned>(&self, what: &'static str) -> Result<T, Error> {
-        serde_json::from_str(&self.text(what)?).map_err(|e| Error::Json {
-            what,
-            reason: e.to_string(),
-        })
-    }
-}
-
-/// What JavaScript calls its type.
-fn kind_of(it: &JsValue) -> String {
-    it.js_typeof().unchecked_into::<js_sys::JsString>().into()
-}
-
-/// Writes JSON for JavaScript. What is not a number becomes `null`.
-fn write<T: Serialize + ?Sized>(it: &T) -> String {
-    serde_json::to_string(it).expect("the core's own values have text for keys")
-}
-
-/// The view `kind` of `found` over the frame that it belongs on.
-fn draw(
-    kind: &str,
-    frames: [&crate::Frame; 2],
-    found: &Interpretation,
-    contours: &[Contour],
-    params: &ViewParams,
-) -> Result<Picture, Error> {
-    if kind == shown::RESIDUAL {
-        let pair = crate::FramePair::new(frames[0].clone(), frames[1].clone())?;
-        return Ok(Picture(view::residuals(&pair, found, params)?.0));
-    }
-    let frame = frames[usize::from(kind == "second")];
-    view::draw(kind, frame, found, contours, params).map(Picture)
 }

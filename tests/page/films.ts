@@ -1,5 +1,15 @@
 /** Files with several moments in them, made for the tests: clips, animations, two views in one. */
 
+import {
+  BufferSource,
+  BufferTarget,
+  EncodedPacketSink,
+  EncodedVideoPacketSource,
+  Input,
+  Mp4OutputFormat,
+  Output,
+  WEBM,
+} from "mediabunny";
 import { crc32, deflateSync } from "node:zlib";
 
 import type { Page } from "@playwright/test";
@@ -91,6 +101,22 @@ export async function clip(page: Page, frames: Grey[], type = "video/webm"): Pro
     },
   );
   return Buffer.from(text, "base64");
+}
+
+/** The same film in a container of the kind MP4, for browsers that record none. */
+export async function mp4(webm: Buffer): Promise<Buffer> {
+  const input = new Input({ source: new BufferSource(webm), formats: [WEBM] });
+  const track = await input.getPrimaryVideoTrack();
+  const output = new Output({ format: new Mp4OutputFormat(), target: new BufferTarget() });
+  const source = new EncodedVideoPacketSource("vp9");
+  output.addVideoTrack(source);
+  await output.start();
+  const decoderConfig = (await track!.getDecoderConfig())!;
+  for await (const packet of new EncodedPacketSink(track!).packets()) {
+    await source.add(packet, { decoderConfig });
+  }
+  await output.finalize();
+  return Buffer.from(output.target.buffer!);
 }
 
 /** A Matroska file that says of its film no more than its codec. */

@@ -1,6 +1,12 @@
 /** What a sequence shows at first: its curves drawn, ready to run. */
 
-import { expect, look, read, test, inSettings } from "./helpers";
+import { moments, photo } from "./films";
+import { expect, look, read, ready, test, inSettings } from "./helpers";
+
+/** Bytes of the WebAssembly that solves. */
+const WASM_BYTES = 1_400_000;
+/** Bytes of all that is sent until a sequence can be solved, compressed. */
+const SENT_BYTES = 800_000;
 
 test("a sequence is there with its curves drawn, ready to run", async ({ opened: page }) => {
   await expect(page).toHaveTitle(/Relievo/);
@@ -27,6 +33,33 @@ test("asks nothing of other hosts", async ({ page, baseURL }) => {
   await page.goto("./");
   await expect(page.getByRole("button", { name: "Run" })).toBeEnabled({ timeout: 60_000 });
   expect(strangers).toEqual([]);
+});
+
+test("what comes before there is a solver is small, and decoders come with the first file that needs them", async ({
+  page,
+  request,
+}) => {
+  const asked = new Set<string>();
+  page.on("response", (response) => asked.add(response.url()));
+  await page.goto("./");
+  await ready(page);
+  let sent = 0;
+  for (const url of asked) {
+    const response = await request.get(url, { headers: { "Accept-Encoding": "br" } });
+    sent += Number(response.headers()["content-length"]);
+    if (!url.endsWith(".wasm")) continue;
+    const plain = await request.get(url, { headers: { "Accept-Encoding": "identity" } });
+    expect((await plain.body()).length).toBeLessThan(WASM_BYTES);
+  }
+  expect(sent).toBeGreaterThan(200_000);
+  expect(sent).toBeLessThan(SENT_BYTES);
+  const decoders = () => [...asked].filter((url) => /decoders.*\.wasm$/.test(url)).length;
+  expect(decoders()).toBe(0);
+  const [first] = moments(1);
+  const buffer = await photo(page, first!, 72);
+  await page.locator("#file-0").setInputFiles({ name: "a.jpg", mimeType: "image/jpeg", buffer });
+  await expect(page.locator("#slots-note")).toContainText("second frame is still missing");
+  expect(decoders()).toBe(1);
 });
 
 test("every sequence opens with a title and a lesson of its own", async ({ opened: page }) => {

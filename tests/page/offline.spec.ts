@@ -4,6 +4,7 @@ import { appendFileSync, cpSync, rmSync } from "node:fs";
 import { join } from "node:path";
 
 import { serve } from "../../scripts/serve.js";
+import { moments, photo } from "./films";
 import { expect, look, PATIENCE, read, test, until, pressView } from "./helpers";
 
 test.use({ serviceWorkers: "allow" });
@@ -23,6 +24,10 @@ test("after the first visit it works without a network", async ({ page, context 
   // What is loaded late is there, too.
   await pressView(page, "Relief");
   await expect(page.locator("#relief canvas")).toBeVisible();
+  const photos = await Promise.all(moments(2).map((view) => photo(page, view, 72)));
+  const files = photos.map((buffer, i) => ({ name: `${i}.jpg`, mimeType: "image/jpeg", buffer }));
+  await page.locator("#film-file").setInputFiles(files);
+  await until(page, ({ source, busy }) => source?.kind === "files" && busy === null);
   await context.setOffline(false);
 });
 

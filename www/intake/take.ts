@@ -13,7 +13,6 @@ import { photos } from "./photos";
 import { chooseFrom, keep } from "./reel";
 import { openBoth, put, slotOf, takePair } from "./slots";
 import { attach, partTruth } from "./truth";
-import { twoViews } from "./two-views";
 
 /** What was on the stage, or about to be, when files were chosen. */
 type Before = Parameters<typeof overtaken>[0];
@@ -114,14 +113,14 @@ async function takeStills(files: File[], side: 0 | 1 | null, then: Before): Prom
 async function takeViews(file: File, then: Before): Promise<boolean> {
   const head = await headOf(file).catch(() => null);
   if (!head || formatOf(head)?.name !== "JPEG") return false;
-  const views = twoViews(await bytesOf(file));
-  if (!views || overtaken(then)) return false;
+  const bytes = await bytesOf(file);
+  const [first, second] = (await ask(null, (service) => service.views(bytes))) ?? [];
+  if (!first || !second || overtaken(then)) return false;
   const named = (which: string, bytes: Uint8Array<ArrayBuffer>) => ({
     name: `${file.name}, ${which} view`,
-    // Of its own, since the other view lies in the same memory.
-    bytes: bytes.slice(),
+    bytes,
   });
   const note = `Two views from one file, ${file.name}: opened as a pair. Whatever stood still has one motion, and no curve is needed.`;
-  await takePair([named("first", views[0]), named("second", views[1])], note);
+  await takePair([named("first", first), named("second", second)], note);
   return true;
 }

@@ -1,15 +1,17 @@
 /** The core, loaded once, with what it offers read from its own lists. */
 
-import init from "../../cli/web.js";
+import init, { loadDecoders } from "../../cli/web.js";
 import {
+  Frame,
   limits,
+  needsDecoders,
   optionCatalogue,
   presetCatalogue,
   sceneCatalogue,
   viewCatalogue,
   type ViewCatalogue,
 } from "../../pkg/relievo.js";
-import type { Catalogues } from "./protocol";
+import type { Catalogues, FrameFile } from "./protocol";
 
 export {
   displacement,
@@ -30,6 +32,35 @@ export {
 
 export async function load(): Promise<void> {
   await init();
+}
+
+let decoders: Promise<void> | null = null;
+
+/** What opens files that are no PNG comes with the first of them. */
+async function loaded(): Promise<void> {
+  decoders ??= loadDecoders();
+  try {
+    await decoders;
+  } catch (error) {
+    // The network may come back.
+    decoders = null;
+    throw error;
+  }
+}
+
+export async function decode({ name, bytes }: FrameFile): Promise<Frame> {
+  if (needsDecoders(bytes)) await loaded();
+  return Frame.decode(bytes, name);
+}
+
+/** The views that a JPEG or MPO file holds, each as a file of its own; a photo is the only one. */
+export async function viewsOf(bytes: Uint8Array): Promise<Uint8Array<ArrayBuffer>[]> {
+  await loaded();
+  const { viewsOf } = await import("../../pkg/relievo_decoders.js");
+  const ends = viewsOf(bytes);
+  return Array.from({ length: ends.length / 2 }, (_, i) =>
+    bytes.slice(ends[2 * i], ends[2 * i + 1]),
+  );
 }
 
 export function catalogues(): Catalogues {

@@ -5,7 +5,7 @@
  * opened or configured is built anew before the old is let go, so an error leaves things as they were.
  */
 
-import { findCurves, findFocal, Frame, Kept, type Solver } from "./core";
+import { decode, findCurves, findFocal, Kept, type Solver } from "./core";
 import { carriedOn } from "./carried";
 import { drawn, legendOf, MOST_PIXELS } from "./drawing";
 import { squeeze, unsqueeze } from "./keeping";
@@ -65,7 +65,7 @@ export class Engine {
   origin: Origin | null = null;
 
   async open(source: Source, keep: Partial<Setup>, found: Found | null): Promise<Opened> {
-    const owned = take(source);
+    const owned = await take(source);
     try {
       const setup = { ...ownSetup(owned), ...keep };
       const solver = build(owned, setup);
@@ -140,7 +140,7 @@ export class Engine {
   /** The following frame of the film: the second becomes the first. */
   async follow(file: FrameFile): Promise<Followed> {
     const { owned, solver, setup } = this.present();
-    const next = Frame.decode(file.bytes, file.name);
+    const next = await decode(file);
     try {
       // A result that was put away has no solver behind it: its curves go on where they are.
       const kept = this.restored && carriedOn(setup.shapes, this.contours());

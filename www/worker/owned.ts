@@ -1,6 +1,15 @@
 /** Two frames of the core, where they come from, and the solver that is built on them. */
 
-import { Frame, hornSchunck, Scene, Solver, Truth, type Baseline, type LensEntry } from "./core";
+import {
+  decode,
+  hornSchunck,
+  Scene,
+  Solver,
+  Truth,
+  type Baseline,
+  type Frame,
+  type LensEntry,
+} from "./core";
 import { bitmap } from "./pictures";
 import type { FrameFile, KnownParts, ScoreTable, Setup, Source } from "./protocol";
 
@@ -14,15 +23,15 @@ export interface Owned {
   baseline: Baseline | null;
 }
 
-export function take(source: Source): Owned {
+export async function take(source: Source): Promise<Owned> {
   if (source.kind === "scene") {
     const scene = new Scene(source.name, source.width, source.height);
     const truth = Truth.ofScene(scene);
     return { first: scene.first(), second: scene.second(), scene, truth, baseline: null };
   }
-  const first = Frame.decode(source.first.bytes, source.first.name);
+  const first = await decode(source.first);
   try {
-    const second = Frame.decode(source.second.bytes, source.second.name);
+    const second = await decode(source.second);
     const owned = { first, second, scene: null, truth: null, baseline: null };
     if (source.truth) setTruth(owned, source.truth);
     return owned;

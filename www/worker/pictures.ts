@@ -1,6 +1,6 @@
 /** Frames and pictures of the core as the page shows them, and frames that are only looked at. */
 
-import { displacement, Frame, type Picture } from "./core";
+import { decode, displacement, Frame, type Picture } from "./core";
 import type { Displacement, FrameFile } from "./protocol";
 
 /** Longest side of a frame sent to the page; more than a screen shows only costs memory. */
@@ -37,7 +37,7 @@ export async function preview(
   file: FrameFile,
   longest: number,
 ): Promise<{ width: number; height: number; picture: ImageBitmap }> {
-  const frame = Frame.decode(file.bytes, file.name);
+  const frame = await decode(file);
   try {
     return { width: frame.width, height: frame.height, picture: await stretched(frame, longest) };
   } finally {

@@ -253,6 +253,8 @@ export interface Service {
   truthKinds(files: FrameFile[], said: boolean): Promise<(string | null)[]>;
   /** Takes what is true of the open pair; throws a sentence, and all stays, where it is not of that. */
   setTruth(files: FrameFile[]): Promise<KnownParts>;
+  /** The views that a JPEG or MPO file holds, each as a file of its own; a photo is the only one. */
+  views(bytes: Uint8Array): Promise<Uint8Array<ArrayBuffer>[]>;
   /** How far things move between two frames, shown small; `null` when they differ in size or are too small. */
   displacement(first: ImageBitmap, second: ImageBitmap): Promise<Displacement | null>;
   /** Opens a pair; on any error the one open before stays. `keep` overrides the source's own setup, as far as it goes; `found` is shown with it. */

@@ -7,7 +7,7 @@
 
 import * as Comlink from "comlink";
 
-import { catalogues, fileKind, load, panicMessage } from "./core";
+import { catalogues, fileKind, load, panicMessage, viewsOf } from "./core";
 import { Engine } from "./engine";
 import { keepPass, takePasses } from "./passes";
 import { measure, preview } from "./pictures";
@@ -253,6 +253,15 @@ const service: Service = {
     guard(() => files.map(({ name, bytes }) => fileKind(name, bytes, said) ?? null)),
 
   setTruth: (files) => guard(() => engine.setTruth(files)),
+
+  views: (bytes) =>
+    guard(async () => {
+      const views = await viewsOf(bytes);
+      return Comlink.transfer(
+        views,
+        views.map(({ buffer }) => buffer),
+      );
+    }),
 
   displacement: (first, second) => guard(() => measure(first, second)),
 

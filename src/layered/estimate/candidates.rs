@@ -12,6 +12,7 @@ use super::normal_equations::Support;
 use super::planar::PlanarFlow;
 use super::state::turn;
 use crate::linalg::{hemisphere, solve};
+use crate::ordered::ordered;
 use glam::DMat3;
 
 /// Directions that are tried.
@@ -60,10 +61,10 @@ impl Blocks {
             return Vec::new();
         }
         let (blocks, epsilon) = (&self.blocks, self.epsilon);
-        let mut tried: Vec<Candidate> = hemisphere(DIRECTIONS)
+        let tried: Vec<Candidate> = hemisphere(DIRECTIONS)
             .map(|direction| judge(blocks, direction, epsilon, turns))
             .collect();
-        tried.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let tried = ordered(tried, |candidate| candidate.cost);
         let mut found: Vec<Candidate> = Vec::new();
         for candidate in tried {
             let direction = candidate.translation.normalize_or_zero();

@@ -7,6 +7,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{Clamped, JsValue};
 use web_sys::ImageData;
 
+use super::opening::open;
 use super::{Word, write};
 use crate::error::Error;
 use crate::file::png;
@@ -30,12 +31,20 @@ pub struct Frame(pub(super) crate::Frame);
 
 #[wasm_bindgen]
 impl Frame {
-    /// Reads the bytes of an image file; `name` is what errors call it.
-    pub fn decode(bytes: &[u8], name: &Word) -> Result<Frame, Error> {
-        Ok(Self(crate::Frame::decode(
+    /// Reads the bytes of an image file; `name` is what errors call it. In browsers files that are no PNG need
+    /// `loadDecoders()` before.
+    pub fn decode(bytes: &Uint8Array, name: &Word) -> Result<Frame, JsValue> {
+        let mut first = None;
+        open(
             bytes,
             &name.text("name of the file")?,
-        )?))
+            false,
+            &mut |frame, _| {
+                first = Some(Self(frame));
+                false
+            },
+        )?;
+        first.ok_or_else(|| js_sys::Error::new("the file gave no picture").into())
     }
 
     /// A frame of four bytes a pixel, as canvas gives them.

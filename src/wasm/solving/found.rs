@@ -1,26 +1,20 @@
-//! The solver on two frames.
+//! What a solver has found so far: pictures, numbers, files.
 
-use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
-use js_sys::{Array, Float32Array, Reflect, Uint8Array};
-use serde::{Deserialize, Serialize};
+use js_sys::{Array, Float32Array, Uint8Array};
+use serde::Serialize;
 use tsify::Tsify;
-use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::wasm_bindgen;
-use web_sys::Performance;
 
 use super::files::{self, listed};
 use super::shown::Shown;
-use super::{Frame, Json, Mesh, Picture, Word, draw, write};
-use crate::camera::Camera;
-use crate::curves::{Contour, Shape};
+use super::{Json, Mesh, Picture, Solver, Word, draw, write};
+use crate::curves::Contour;
 use crate::error::Error;
 use crate::file::motion::{MotionFile, RegionMotion, Seconds};
 use crate::file::{png, result};
-use crate::frames::FramePair;
 use crate::interpretation::Interpretation;
-use crate::options::Options;
 use crate::solver::Report;
 use crate::view::{self, ViewParams};
 
@@ -33,32 +27,6 @@ pub(super) const PICTURES: [(&str, &str); 6] = [
     ("anaglyph", "anaglyph.png"),
     ("confidence", "confidence.png"),
 ];
-
-/// Seconds since some moment, 0 where there is no clock. Windows, workers and Node all have one, under this name.
-fn now() -> f64 {
-    thread_local! {
-        static CLOCK: Option<Performance> = Reflect::get(&js_sys::global(), &"performance".into())
-            .ok()
-            .filter(|clock| clock.is_object())
-            .map(JsCast::unchecked_into);
-    }
-    CLOCK.with(|clock| clock.as_ref().map_or(0.0, |clock| clock.now() / 1000.0))
-}
-
-/// A camera.
-#[derive(Deserialize, Tsify)]
-#[tsify(rename = "Camera")]
-#[serde(deny_unknown_fields)]
-struct CameraJson {
-    /// Focal length, pixels.
-    focal: f64,
-    /// Column of the principal point; without it that of the frame's centre.
-    #[tsify(optional)]
-    cx: Option<f64>,
-    /// Row of the principal point; without it that of the frame's centre.
-    #[tsify(optional)]
-    cy: Option<f64>,
-}
 
 /// A curve as the solver has moved it.
 #[derive(Serialize, Tsify)]
@@ -83,118 +51,11 @@ impl<'a> Outline<'a> {
     }
 }
 
-/// Finds regions, motions and depth of two frames.
-#[wasm_bindgen]
-pub struct Solver {
-    solver: crate::Solver,
-    /// What it has found, asked for by several views of the same pass.
-    found: OnceCell<Interpretation>,
-    /// The same on frames shrunk so many times.
-    shrunk: RefCell<Option<(usize, Rc<Interpretation>)>>,
-}
-
 #[wasm_bindgen]
 impl Solver {
-    /// A solver at its start. `camera` is `{"focal", "cx"?, "cy"?}`, `shapes` an array of
-    /// `{"kind": "circle", "x", "y", "r"}` and `{"kind": "polygon", "points": [[x, y], …]}`, `options`
-    /// an object of what differs from the preset, `"preset": "best"` where it names none; all three as
-    /// JSON or as they are.
-    #[wasm_bindgen(constructor)]
-    pub fn new(
-        first: &Frame,
-        second: &Frame,
-        camera: &Json,
-        shapes: &Json,
-        options: &Json,
-    ) -> Result<Solver, Error> {
-        let pair = FramePair::new(first.0.clone(), second.0.clone())?;
-        let camera = camera_of(&pair, camera)?;
-        let shapes: Vec<Shape> = shapes.read("curves")?;
-        let options = Options::from_json(&options.text("options")?)?;
-        let mut solver = crate::Solver::new(pair, camera, &shapes, options)?;
-        solver.set_clock(now);
-        Ok(Self {
-            solver,
-            found: OnceCell::new(),
-            shrunk: RefCell::default(),
-        })
-    }
-
-    /// One pass, motion → depth → curves: `running`, `converged`, `exhausted` or `diverged`.
-    #[wasm_bindgen(unchecked_return_type = "Status")]
-    pub fn step(&mut self) -> String {
-        self.change().step();
-        self.status()
-    }
-
-    /// Step 1 alone.
-    #[wasm_bindgen(js_name = stepMotion)]
-    pub fn step_motion(&mut self) {
-        self.change().step_motion();
-    }
-
-    /// Step 2 alone.
-    #[wasm_bindgen(js_name = stepDepth)]
-    pub fn step_depth(&mut self) -> Result<(), Error> {
-        self.change().step_depth()
-    }
-
-    /// Step 3 alone.
-    #[wasm_bindgen(js_name = stepCurves)]
-    pub fn step_curves(&mut self) {
-        self.change().step_curves();
-    }
-
-    /// Back to the start, with the curves and options as they were set last.
-    pub fn reset(&mut self) {
-        self.change().reset();
-    }
-
-    /// Takes the following frame of the film: the second becomes the first, and what was found is the first guess for
-    /// the new pair. Curves keep their numbers, and a solver that had stopped goes on. `frame` stays as it is; on an
-    /// error the solver does, too.
-    pub fn next(&mut self, frame: &Frame) -> Result<(), Error> {
-        self.change().next(frame.0.clone())
-    }
-
-    /// The first frame as it is shown and solved: both are stretched alike where they use few levels.
-    pub fn first(&self) -> Frame {
-        Frame(self.solver.pair().first().clone())
-    }
-
-    /// The second frame, the same way.
-    pub fn second(&self) -> Frame {
-        Frame(self.solver.pair().second().clone())
-    }
-
-    /// Where it stands: `running`, `converged`, `exhausted` or `diverged`.
-    #[wasm_bindgen(getter, unchecked_return_type = "Status")]
-    pub fn status(&self) -> String {
-        write(&self.solver.status()).trim_matches('"').to_owned()
-    }
-
-    /// Changes options while it runs; on an error they stay.
-    #[wasm_bindgen(js_name = setOptions)]
-    pub fn set_options(&mut self, options: &Json) -> Result<(), Error> {
-        self.change()
-            .set_options(Options::from_json(&options.text("options")?)?)
-    }
-
-    /// Changes the curves while it runs; on an error they stay.
-    #[wasm_bindgen(js_name = setCurves)]
-    pub fn set_curves(&mut self, shapes: &Json) -> Result<(), Error> {
-        let shapes: Vec<Shape> = shapes.read("curves")?;
-        self.change().set_curves(&shapes)
-    }
-
-    /// Status, energy, regions, weights, warnings and times: a `Report` as JSON.
-    pub fn report(&self) -> String {
-        write(&self.solver.report())
-    }
-
     /// The curves: `Contour[]` as JSON.
     pub fn contours(&self) -> String {
-        let contours = self.solver.contours();
+        let contours = self.solver().contours();
         write(&contours.iter().map(Outline::of).collect::<Vec<_>>())
     }
 
@@ -218,7 +79,7 @@ impl Solver {
         let params = params.view_params()?;
         let n = self.shrunk_for(&params);
         let found = self.found_shrunk(n);
-        let frames = self.solver.frames_shrunk(n);
+        let frames = self.solver().frames_shrunk(n);
         Ok(Mesh(view::mesh(frames.first(), &found, &params)))
     }
 
@@ -250,7 +111,7 @@ impl Solver {
         let motion = self.motion_file(&found);
         files::one(&name.text("name of the file")?, &found, &motion, || {
             let n = self.shrunk_for(&params);
-            let frame = self.solver.frames_shrunk(n).first().clone();
+            let frame = self.solver().frames_shrunk(n).first().clone();
             (view::mesh(&frame, &self.found_shrunk(n), &params), frame)
         })
     }
@@ -286,18 +147,20 @@ impl Solver {
 impl Solver {
     pub(super) fn shown(&self) -> Shown<'_> {
         Shown {
-            pair: self.solver.pair(),
+            pair: self.solver().pair(),
             found: self.found(),
         }
     }
 
     pub(super) fn found(&self) -> &Interpretation {
-        self.found.get_or_init(|| self.solver.interpretation())
+        self.found.get_or_init(|| self.solver().interpretation())
     }
 
     /// How many times frames are shrunk to be drawn on.
     fn shrunk_for(&self, params: &ViewParams) -> usize {
-        params.pixels.map_or(1, |most| self.solver.shrunk_for(most))
+        params
+            .pixels
+            .map_or(1, |most| self.solver().shrunk_for(most))
     }
 
     fn found_shrunk(&self, n: usize) -> Rc<Interpretation> {
@@ -305,7 +168,7 @@ impl Solver {
         match &*shrunk {
             Some((last, found)) if *last == n => found.clone(),
             _ => {
-                let found = Rc::new(self.solver.interpretation_shrunk(n));
+                let found = Rc::new(self.solver().interpretation_shrunk(n));
                 *shrunk = Some((n, found.clone()));
                 found
             }
@@ -315,12 +178,12 @@ impl Solver {
     fn picture(&self, kind: &str, params: &ViewParams) -> Result<Picture, Error> {
         // No other view shows curves.
         let mut contours = if kind == "segmentation" {
-            self.solver.contours()
+            self.solver().contours()
         } else {
             Vec::new()
         };
         let n = self.shrunk_for(params);
-        let pair = self.solver.frames_shrunk(n);
+        let pair = self.solver().frames_shrunk(n);
         let frames = [pair.first(), pair.second()];
         if n == 1 {
             return draw(kind, frames, self.found(), &contours, params);
@@ -340,7 +203,7 @@ impl Solver {
             seconds,
             regions,
             ..
-        } = self.solver.report();
+        } = self.solver().report();
         let models: Vec<_> = regions.iter().map(|region| region.model).collect();
         let mut motions = RegionMotion::list(&found.motions, &models);
         for (motion, region) in motions.iter_mut().zip(&regions) {
@@ -360,22 +223,4 @@ impl Solver {
             depth_scale: None,
         }
     }
-
-    pub(super) fn solver(&self) -> &crate::Solver {
-        &self.solver
-    }
-
-    pub(super) fn change(&mut self) -> &mut crate::Solver {
-        self.found.take();
-        self.shrunk.take();
-        &mut self.solver
-    }
-}
-
-pub(super) fn camera_of(pair: &FramePair, json: &Json) -> Result<Camera, Error> {
-    let given: CameraJson = json.read("camera")?;
-    let mut camera = Camera::centred(given.focal, pair.width(), pair.height())?;
-    camera.cx = given.cx.unwrap_or(camera.cx);
-    camera.cy = given.cy.unwrap_or(camera.cy);
-    Camera::new(camera.focal, camera.cx, camera.cy)
 }

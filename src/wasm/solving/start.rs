@@ -2,7 +2,7 @@
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use super::solver::camera_of;
+use super::camera::camera_of;
 use super::{Frame, Json, write};
 use crate::error::Error;
 use crate::frames::FramePair;

@@ -5,8 +5,8 @@ use serde::Deserialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::files::{self, listed};
+use super::found::PICTURES;
 use super::shown::Shown;
-use super::solver::PICTURES;
 use super::{Frame, Json, Mesh, Picture, Solver, Word, draw};
 use crate::curves::{Contour, differing};
 use crate::error::Error;

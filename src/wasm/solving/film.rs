@@ -1,10 +1,12 @@
 //! Files that hold several pictures.
 
+use js_sys::Uint8Array;
+use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
+use super::opening::open;
 use super::{Frame, Word};
-use crate::error::Error;
-use crate::frames::{self, Kind};
+use crate::frames;
 
 /// The pictures of a file, all of one size.
 #[wasm_bindgen]
@@ -13,9 +15,13 @@ pub struct Film(frames::Film);
 /// Reads all pictures of an image file: of an animated GIF, PNG or WebP, of an MPO file, or the pages of a TIFF file;
 /// else the one that `Frame.decode` reads. `name` is what errors call it.
 #[wasm_bindgen(js_name = decodeAll)]
-pub fn decode_all(bytes: &[u8], name: &Word) -> Result<Film, Error> {
+pub fn decode_all(bytes: &Uint8Array, name: &Word) -> Result<Film, JsValue> {
     let name = name.text("name of the file")?;
-    Ok(Film(frames::Film::decode(bytes, &name)?))
+    let mut film = frames::Film::new();
+    let contents = open(bytes, &name, true, &mut |frame, seconds| {
+        film.add(frame, seconds)
+    })?;
+    Ok(Film(film.finished(contents, &name)?))
 }
 
 #[wasm_bindgen]
@@ -32,13 +38,7 @@ impl Film {
         unchecked_return_type = "\"still\" | \"animation\" | \"views\" | \"pages\""
     )]
     pub fn kind(&self) -> String {
-        let kind = match self.0.kind {
-            Kind::Still => "still",
-            Kind::Animation => "animation",
-            Kind::Views => "views",
-            Kind::Pages => "pages",
-        };
-        kind.to_owned()
+        self.0.kind.word().to_owned()
     }
 
     /// Whether the file holds more than fit.

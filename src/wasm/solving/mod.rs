@@ -1,0 +1,128 @@
+//! The module that solves.
+
+mod baseline;
+#[cfg(feature = "bench")]
+mod bench;
+mod camera;
+mod catalogue;
+mod files;
+mod film;
+mod found;
+mod frame;
+mod kept;
+mod mesh;
+mod opening;
+mod scene;
+mod shown;
+mod solver;
+mod start;
+mod truth;
+mod working;
+
+pub use baseline::{Baseline, horn_schunck};
+#[cfg(feature = "bench")]
+pub use bench::Kernels;
+pub use catalogue::{limits, option_catalogue, preset_catalogue, scene_catalogue, view_catalogue};
+pub use files::SavedResult;
+pub use film::{Film, decode_all};
+pub use frame::{Frame, Picture};
+pub use kept::Kept;
+pub use mesh::Mesh;
+pub use opening::{needs_decoders, use_decoders};
+pub use scene::Scene;
+pub use solver::Solver;
+pub use start::{displacement, find_curves, find_focal};
+pub use truth::{Truth, file_kind};
+pub use working::working_sizes;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use wasm_bindgen::prelude::wasm_bindgen;
+use wasm_bindgen::{JsCast, JsValue};
+
+use crate::Error;
+use crate::curves::Contour;
+use crate::interpretation::Interpretation;
+use crate::view::{self, ViewParams};
+
+#[wasm_bindgen]
+extern "C" {
+    /// A word. Nothing keeps JavaScript from passing something else, which would be read as if it were one.
+    #[wasm_bindgen(typescript_type = "string")]
+    pub type Word;
+
+    /// JSON text, or what it would be parsed to.
+    #[wasm_bindgen(typescript_type = "string | object")]
+    pub type Json;
+}
+
+impl Word {
+    /// The name of a view.
+    fn view(&self) -> Result<String, Error> {
+        self.text("name of the view")
+    }
+
+    /// What was passed; `what` is what an error calls it.
+    fn text(&self, what: &'static str) -> Result<String, Error> {
+        let it: &JsValue = self.as_ref();
+        it.as_string().ok_or_else(|| Error::Json {
+            what,
+            reason: format!("it must be a string, and is {}", kind_of(it)),
+        })
+    }
+}
+
+impl Json {
+    /// The text; `what` is what an error calls it.
+    fn text(&self, what: &'static str) -> Result<String, Error> {
+        let it: &JsValue = self.as_ref();
+        if let Some(text) = it.as_string() {
+            return Ok(text);
+        }
+        let text = it
+            .is_object()
+            .then(|| js_sys::JSON::stringify(it).ok()?.as_string());
+        text.flatten().ok_or_else(|| Error::Json {
+            what,
+            reason: format!("it must be JSON or an object, and is {}", kind_of(it)),
+        })
+    }
+
+    fn view_params(&self) -> Result<ViewParams, Error> {
+        ViewParams::from_json(&self.text("view settings")?)
+    }
+
+    /// The value of type T that it stands for.
+    fn read<T: DeserializeOwned>(&self, what: &'static str) -> Result<T, Error> {
+        serde_json::from_str(&self.text(what)?).map_err(|e| Error::Json {
+            what,
+            reason: e.to_string(),
+        })
+    }
+}
+
+/// What JavaScript calls its type.
+fn kind_of(it: &JsValue) -> String {
+    it.js_typeof().unchecked_into::<js_sys::JsString>().into()
+}
+
+/// Writes JSON for JavaScript. What is not a number becomes `null`.
+fn write<T: Serialize + ?Sized>(it: &T) -> String {
+    serde_json::to_string(it).expect("the core's own values have text for keys")
+}
+
+/// The view `kind` of `found` over the frame that it belongs on.
+fn draw(
+    kind: &str,
+    frames: [&crate::Frame; 2],
+    found: &Interpretation,
+    contours: &[Contour],
+    params: &ViewParams,
+) -> Result<Picture, Error> {
+    if kind == shown::RESIDUAL {
+        let pair = crate::FramePair::new(frames[0].clone(), frames[1].clone())?;
+        return Ok(Picture(view::residuals(&pair, found, params)?.0));
+    }
+    let frame = frames[usize::from(kind == "second")];
+    view::draw(kind, frame, found, contours, params).map(Picture)
+}
