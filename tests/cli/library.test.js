@@ -125,8 +125,12 @@ describe("a solver", () => {
     assert.throws(() => found.viewErrors("depth", {}, truth), { message: /nothing in common/ });
     const kinds = scene.files().map(({ name, bytes }) => fileKind(name, bytes, false) ?? null);
     assert.deepEqual(kinds, [
-      ...[null, null, "labels.png", "depth.pfm", "flow.flo", "occlusion.png", "motion.json"],
+      ...[null, null, "labels.png", "depth.pfm", "depth.png", "flow.flo", "occlusion.png"],
+      "motion.json",
     ]);
+    // A whole result, with its depth twice.
+    const whole = JSON.parse(new Truth(first, second, scene.files().slice(2)).known());
+    assert.ok(Object.values(whole).every(Boolean));
     assert.throws(() => new Truth(first, second, scene.files().slice(0, 1)), {
       message: /is no truth/,
     });
