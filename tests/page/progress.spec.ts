@@ -36,7 +36,7 @@ test("a run says what it does, shows a bar that grows, and the time left", async
     const value = bar.evaluate((element: HTMLProgressElement) => element.value, null, {
       timeout: 1000,
     });
-    values.push(await value.catch(() => 1));
+    values.push(await value.catch(() => values.at(-1) ?? 0));
     await page.waitForTimeout(150);
   }
   expect(values.length).toBeGreaterThan(2);

@@ -29,14 +29,18 @@ interface Pane {
 /** The first is of what is shown, or of the first line; the second of the second line. */
 let panes: Pane[] = [];
 let lamp: Lamp | null = null;
-let pending: MeshData | null = null;
+/** What came last, of the line shown and of the other, whether or not there is a pane for it yet. */
+let own: MeshData | null = null;
+let other: { mesh: MeshData; line: number } | null = null;
 
 export function mountRelief(): void {
-  const beside = mountBeside((mesh, line) => panes[line]?.scenery.setMesh(mesh));
+  const beside = mountBeside((mesh, line) => {
+    other = { mesh, line };
+    showOther();
+  });
   onMesh((mesh) => {
-    const { state } = store;
-    if (panes.length > 0) panes[state.beside ? placeOf(state).line : 0]!.scenery.setMesh(mesh);
-    else pending = mesh;
+    own = mesh;
+    showOwn();
     beside(mesh.deepened);
   });
   takePicture("relief", () => picture());
@@ -48,6 +52,22 @@ export function mountRelief(): void {
   );
   store.watch(({ frames, viewParams }) => [frames, viewParams.material, viewParams.ghosts], dress);
   store.watch(({ beside, timeline }) => [beside, timeline], arrange);
+  store.watch(
+    ({ beside }) => [beside],
+    ({ beside }) => {
+      if (!beside) other = null;
+      showOwn();
+    },
+  );
+}
+
+function showOwn(): void {
+  const { state } = store;
+  if (own) panes[state.beside ? placeOf(state).line : 0]?.scenery.setMesh(own);
+}
+
+function showOther(): void {
+  if (other && store.state.beside) panes[other.line]?.scenery.setMesh(other.mesh);
 }
 
 let opening: Promise<void> | null = null;
@@ -62,11 +82,13 @@ async function open(): Promise<void> {
       const name = make("p", { class: "relief-name" });
       const place = make("div", { class: "relief-pane" }, name);
       root.append(place);
-      const scenery: Scenery = new Scenery(
-        place,
-        () => lamp?.follow(),
-        () => panes.forEach((other) => other.scenery !== scenery && other.scenery.follow(scenery)),
-      );
+      // It turns to its first place while it is being made.
+      let made: Scenery | null = null;
+      const turned = () => {
+        for (const { scenery } of panes) if (made && scenery !== made) scenery.follow(made);
+      };
+      const scenery = new Scenery(place, () => lamp?.follow(), turned);
+      made = scenery;
       return { place, name, scenery };
     };
     add = () => {
@@ -88,8 +110,7 @@ async function open(): Promise<void> {
     mountTouch(root);
     arrange();
     dress();
-    if (pending) panes[0]!.scenery.setMesh(pending);
-    pending = null;
+    showOwn();
   })();
   try {
     await opening;
@@ -97,6 +118,8 @@ async function open(): Promise<void> {
       add();
       arrange();
       dress();
+      showOwn();
+      showOther();
       panes[1]!.scenery.follow(panes[0]!.scenery);
     }
     panes.forEach(({ scenery }) => scenery.resize());
