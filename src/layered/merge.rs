@@ -1,7 +1,6 @@
 //! Regions that one rigid motion explains as well.
 //!
-//! After the search for motions, on the first scale, two explanations of a pair of regions are compared with what they
-//! cost apart, E/σ²:
+//! Two explanations of a pair of regions are compared with what they cost apart, E/σ²:
 //!
 //! ```text
 //! one body      one motion and one surface over both, for regions that touch
@@ -9,9 +8,13 @@
 //! ```
 //!
 //! The motion of a scene is the background's own, or the one that matches of both agree on: a background of little relief
-//! does not tell its T alone. Where curves are looked for, pairs that lose no more than [`ALIKE`] by it are merged as
-//! one body, the pair that loses least first, then what loses no more than [`SCENERY`] with the background. Curves that are drawn stay, and it is
-//! noted: in noise, or where a body happens to move as the background would at another depth, whoever drew it knows better.
+//! does not tell its T alone.
+//!
+//! Where curves are looked for, this is asked on the first scale, after the search for motions. Pairs that lose no more than
+//! [`ALIKE`] are merged as one body, the pair that loses least first, then what loses no more than [`SCENERY`] with the
+//! background. Curves that are drawn stay, and it is noted when the solve has ended: in noise, or where a body happens to move
+//! as the background would at another depth, whoever drew it knows better. Only pairs whose matches leave it open are tried
+//! then: a region of whose matches a motion explains less than [`POSSIBLE`] does not share it.
 
 use glam::DVec3;
 

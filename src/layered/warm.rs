@@ -11,7 +11,7 @@ use crate::options::Options;
 
 impl Layered {
     /// Labels go where their pixels go, curves before the background; surfaces go along. Motions are those of the
-    /// last pair. One pass a scale is due.
+    /// last pair. No search is due, only passes of each scale.
     pub(super) fn follow(&mut self, pair: Rc<FramePair>, options: &Options) {
         let (width, height) = (pair.width(), pair.height());
         let before = self.compose(options);
