@@ -13,6 +13,17 @@ export function number(value: number, digits = 3): string {
   return minus(value.toFixed(decimals));
 }
 
+/** The marks of a scale, all with as few decimals, up to four, as are true to a seventh of a step between them. */
+export function scale(values: number[]): string[] {
+  const steps = values.slice(1).map((value, i) => Math.abs(value - values[i]!));
+  const slack = Math.min(...steps.filter((step) => step > 0)) / 7;
+  if (!Number.isFinite(slack)) return values.map((value) => number(value, 2));
+  const enough = (decimals: number) =>
+    values.every((value) => Math.abs(Number(value.toFixed(decimals)) - value) <= slack);
+  const decimals = [0, 1, 2, 3].find(enough) ?? 4;
+  return values.map((value) => (value === 0 ? "0" : fixed(value, decimals)));
+}
+
 /** A fixed number of decimals, with a true minus sign. */
 export function fixed(value: number, decimals: number): string {
   if (!Number.isFinite(value)) return "–";

@@ -1,7 +1,7 @@
 /** Beside the stage: what the colours stand for, in numbers and units, as the core says. */
 
 import { byId, make } from "../dom";
-import { number } from "../format";
+import { number, scale } from "../format";
 import { store, type State } from "../store";
 import { asks, awaited, comparing } from "../views";
 import type { Legend } from "../worker/protocol";
@@ -106,8 +106,9 @@ function ramp({ colours, marks }: Legend): HTMLElement {
   const bar = make("div", { class: "ramp", "aria-hidden": "true" });
   bar.style.setProperty("--colours", colours.join(", "));
   const list = make("ol", { class: "marks" });
-  for (const { at, value } of marks) {
-    const mark = make("li", {}, number(value, 2));
+  const values = scale(marks.map(({ value }) => value));
+  for (const [i, { at }] of marks.entries()) {
+    const mark = make("li", {}, values[i]!);
     mark.style.setProperty("--at", String(at));
     list.append(mark);
   }
