@@ -1,9 +1,11 @@
 // Running other programs, and saying so: a heading, their output, how long they took.
 
+import { AsyncLocalStorage } from "node:async_hooks";
 import { spawn, spawnSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { homedir } from "node:os";
 import { delimiter, dirname, join } from "node:path";
+import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
 
 /** The checkout. */
@@ -64,6 +66,22 @@ export function which(program) {
   return null;
 }
 
+/** @type {AsyncLocalStorage<string>} */
+const marks = new AsyncLocalStorage();
+
+/**
+ * Does work beside other work: each line that it prints begins with a mark.
+ * @template T
+ * @param {string} mark
+ * @param {() => Promise<T>} work
+ */
+export function marked(mark, work) {
+  return marks.run(mark, work);
+}
+
+/** @param {string} line */
+const mark = (line) => (marks.getStore() ?? "") + line;
+
 /**
  * Runs a program with its output shown, and gives back what it printed.
  * @param {string} program
@@ -81,9 +99,9 @@ export function run(program, options, extra = {}) {
     let output = "";
     /** @param {"stdout" | "stderr"} stream */
     const show = (stream) =>
-      child[stream].setEncoding("utf8").on("data", (/** @type {string} */ text) => {
-        output += text;
-        process[stream].write(text);
+      createInterface({ input: child[stream] }).on("line", (line) => {
+        output += `${line}\n`;
+        process[stream].write(`${mark(line)}\n`);
       });
     show("stdout");
     show("stderr");
@@ -104,12 +122,12 @@ export function run(program, options, extra = {}) {
  * @param {() => T | Promise<T>} work
  */
 export async function stage(title, work) {
-  console.log(`\n== ${title}`);
+  console.log(`\n${mark(`== ${title}`)}`);
   const begin = performance.now();
   try {
     return await work();
   } finally {
-    console.log(`-- ${title}: ${duration(performance.now() - begin)}`);
+    console.log(mark(`-- ${title}: ${duration(performance.now() - begin)}`));
   }
 }
 

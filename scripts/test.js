@@ -10,7 +10,7 @@ import { ensureChromium } from "./chromium.js";
 import { findFirefox } from "./firefox.js";
 import { recordings } from "./recordings.js";
 import { setup } from "./setup.js";
-import { duration, ifMain, root, run, stage, Trouble } from "./shell.js";
+import { duration, ifMain, marked, root, run, stage, Trouble } from "./shell.js";
 import { wasm } from "./wasm.js";
 
 const WASM = ["--target", "wasm32-unknown-unknown"];
@@ -19,39 +19,48 @@ const DENY = ["--", "-D", "warnings"];
 /** Tests of the page that run in Firefox as well: it opens, runs, and draws. */
 const IN_FIREFOX = "opens on the blocks|asks nothing of other hosts|a run makes the energy fall";
 
-/** @type {[string, () => Promise<unknown>][]} */
-const STAGES = [
-  ["rust format", () => run("cargo", ["fmt", "--check"])],
-  ["rust lint", () => run("cargo", ["clippy", "--locked", "--all-targets", ...DENY])],
-  [
-    "rust lint without features",
-    () => run("cargo", ["clippy", "--locked", "--lib", "--no-default-features", ...DENY]),
+/** @typedef {[string, () => Promise<unknown>]} Stage a name and what is done */
+
+/**
+ * Both halves run at once: compiling keeps more than one core busy only now and then, and so does a browser.
+ * @type {Record<string, Stage[]>}
+ */
+const HALVES = {
+  rust: [
+    ["rust format", () => run("cargo", ["fmt", "--check"])],
+    ["rust lint", () => run("cargo", ["clippy", "--locked", "--all-targets", ...DENY])],
+    [
+      "rust lint without features",
+      () => run("cargo", ["clippy", "--locked", "--lib", "--no-default-features", ...DENY]),
+    ],
+    [
+      "rust lint for wasm",
+      async () => {
+        const lint = ["clippy", "--locked", "--lib", "--no-default-features"];
+        for (const feature of ["bench", "javascript-decoders"]) {
+          await run("cargo", [...lint, "--features", feature, ...WASM, ...DENY]);
+        }
+      },
+    ],
+    [
+      "rust docs",
+      () => run("cargo", ["doc", "--locked", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" }),
+    ],
+    ["rust tests", rustTests],
+    ["crate as packed", crate],
+    ["rust tests in Node", rustInNode],
   ],
-  [
-    "rust lint for wasm",
-    async () => {
-      const lint = ["clippy", "--locked", "--lib", "--no-default-features"];
-      for (const feature of ["bench", "javascript-decoders"]) {
-        await run("cargo", [...lint, "--features", feature, ...WASM, ...DENY]);
-      }
-    },
+  page: [
+    ["build", build],
+    ["page format", () => run("prettier", ["--check", "."])],
+    ["page types", types],
+    ["speed table tests", () => nodeTests("tests/speed")],
+    ["command line tests", commandLine],
+    ["npm package tests", npmPackage],
+    ["page tests", page],
+    ["page tests in Firefox", pageInFirefox],
   ],
-  [
-    "rust docs",
-    () => run("cargo", ["doc", "--locked", "--no-deps"], { RUSTDOCFLAGS: "-D warnings" }),
-  ],
-  ["rust tests", rustTests],
-  ["crate as packed", crate],
-  ["rust tests in Node", rustInNode],
-  ["build", build],
-  ["page format", () => run("prettier", ["--check", "."])],
-  ["page types", types],
-  ["speed table tests", () => nodeTests("tests/speed")],
-  ["command line tests", commandLine],
-  ["npm package tests", npmPackage],
-  ["page tests", page],
-  ["page tests in Firefox", pageInFirefox],
-];
+};
 
 /** Without the benches, which the lint has looked through, and what `crate` runs. */
 function rustTests() {
@@ -195,40 +204,62 @@ export function failing(output) {
   return [...new Set(names)];
 }
 
+/**
+ * Does one stage.
+ * @param {Stage} stage
+ * @returns {Promise<{ name: string, failed: boolean, lines: string[] }>} with its lines of the summary
+ */
+async function done([name, work]) {
+  const from = performance.now();
+  let [word, output, reason] = ["ok", /** @type {unknown} */ (""), ""];
+  try {
+    output = await stage(name, work);
+  } catch (error) {
+    word = "FAILED";
+    output = Object(error).output;
+    reason = error instanceof Error ? error.message : String(error);
+    console.error(reason);
+  }
+  const { passed, failed } = count(output);
+  const tests = passed + failed ? `${passed} passed${failed ? `, ${failed} failed` : ""}` : "";
+  const time = duration(performance.now() - from);
+  const lines = [`${word.padEnd(7)} ${name.padEnd(26)} ${time.padStart(11)}  ${tests || reason}`];
+  if (reason) lines.push(...failing(output).map((test) => `          ${test}`));
+  return { name, failed: reason !== "", lines };
+}
+
+/**
+ * Does stages one after the other.
+ * @param {Stage[]} stages
+ */
+async function inTurn(stages) {
+  const ended = [];
+  for (const each of stages) ended.push(await done(each));
+  return ended;
+}
+
 await ifMain(import.meta.url, async () => {
   const begin = performance.now();
   const words = process.argv.slice(2);
-  const chosen = STAGES.filter(([name]) => !words.length || words.some((w) => name.includes(w)));
-  if (!chosen.length) {
-    throw new Trouble(`No stage is called that: ${STAGES.map(([name]) => name).join(", ")}.`);
+  const halves = Object.entries(HALVES).map(([half, stages]) => {
+    const chosen = stages.filter(([name]) => !words.length || words.some((w) => name.includes(w)));
+    return { mark: `${half}  `, chosen };
+  });
+  if (halves.every(({ chosen }) => !chosen.length)) {
+    const names = Object.values(HALVES).flatMap((stages) => stages.map(([name]) => name));
+    throw new Trouble(`No stage is called that: ${names.join(", ")}.`);
   }
   await setup();
 
-  const lines = [];
-  /** @type {string[]} */
-  const failures = [];
-  for (const [name, work] of chosen) {
-    const from = performance.now();
-    let [word, output, reason] = ["ok", /** @type {unknown} */ (""), ""];
-    try {
-      output = await stage(name, work);
-    } catch (error) {
-      failures.push(name);
-      word = "FAILED";
-      output = Object(error).output;
-      reason = error instanceof Error ? error.message : String(error);
-      console.error(reason);
-    }
-    const { passed, failed } = count(output);
-    const tests = passed + failed ? `${passed} passed${failed ? `, ${failed} failed` : ""}` : "";
-    const time = duration(performance.now() - from);
-    lines.push(`${word.padEnd(7)} ${name.padEnd(26)} ${time.padStart(11)}  ${tests || reason}`);
-    if (reason) lines.push(...failing(output).map((test) => `          ${test}`));
-  }
+  const ended = await Promise.all(
+    halves.map(({ mark, chosen }) => marked(mark, () => inTurn(chosen))),
+  );
+  const stages = ended.flat();
   console.log(`\n== Summary, ${duration(performance.now() - begin)}`);
-  console.log(lines.join("\n"));
+  console.log(stages.flatMap(({ lines }) => lines).join("\n"));
+  const failures = stages.filter(({ failed }) => failed).map(({ name }) => name);
   if (failures.length) {
-    const [count, names] = [`${failures.length} of ${chosen.length}`, failures.join(", ")];
+    const [count, names] = [`${failures.length} of ${stages.length}`, failures.join(", ")];
     throw new Trouble(`${count} stages failed: ${names}.`);
   }
   console.log("\nAll is well.");
