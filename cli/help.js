@@ -30,7 +30,7 @@ Frames and curves:
 ${table([
   [
     "--focal F",
-    "focal length in pixels; exif, the default, takes that of the photos' EXIF data; auto looks for it in the frames and takes their longer side where they do not tell it",
+    "focal length in pixels; auto looks for it in the frames and takes their longer side, a guess, where they do not tell it; exif takes that of the photos' EXIF data; when left out, exif, and auto where there are none",
   ],
   [
     "--frames I,J",

@@ -106,10 +106,9 @@ function seenBy(core, frames, { way, ...asked }) {
     const focal = `focal length ${f} pixels (${lens.text}): --focal ${f}`;
     return { camera: { ...asked, focal: f }, focal };
   }
-  const ways = "give it in pixels with --focal F, or have it looked for with --focal auto";
-  if (way === "exif") throw new InputError(`the frames' EXIF data tell no focal length; ${ways}`);
-  throw new UsageError(
-    `the focal length is missing, and the frames' EXIF data do not tell it; ${ways}`,
+  if (way !== "exif") return foundBy(core, frames, asked);
+  throw new InputError(
+    "the frames' EXIF data tell no focal length; give it in pixels with --focal F, or have it looked for with --focal auto",
   );
 }
 
@@ -123,7 +122,7 @@ function foundBy(core, frames, asked) {
   const guess = { ...asked, focal: Math.max(frames[0].width, frames[0].height) };
   const found = JSON.parse(core.findFocal(...frames, JSON.stringify(guess)));
   if (!found) {
-    const focal = `the frames do not tell the focal length, taken for the longer side: --focal ${guess.focal}`;
+    const focal = `the frames do not tell the focal length; a guess, the longer side: --focal ${guess.focal}`;
     return { camera: guess, focal };
   }
   const [f, least, greatest] = [found.focal, found.least, found.greatest].map(Math.round);

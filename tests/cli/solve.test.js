@@ -227,7 +227,6 @@ describe("a wrong command line ends with 2 and a sentence", () => {
     ],
     ["a choice of two files' frames", [...pair, ...FOCAL, "--frames", "1,2"], /--frames chooses/],
     ["three frames", [...pair, first, ...FOCAL], /two frames are needed, 3 were given/],
-    ["no focal length", pair, /focal length is missing/],
     ["a focal length of 0", [...pair, "--focal", "0"], /focal length is 0/],
     ["a negative focal length", [...pair, "--focal", "-5"], /focal length is -5/],
     [
@@ -312,10 +311,12 @@ describe("--focal auto", () => {
     assert.ok(least < focal && focal < greatest);
   });
 
-  test("takes the longer side where nothing tells it, and says so", () => {
-    const kept = relievo(first, second, "--focal", "auto", ...out);
-    assert.equal(kept.status, 0, kept.stderr);
-    assert.match(kept.stdout, /^the frames do not tell the focal length.*--focal 64$/m);
+  test("takes the longer side where nothing tells it, and says so; so does no --focal at all", () => {
+    for (const focal of [["--focal", "auto"], []]) {
+      const kept = relievo(first, second, ...focal, ...out);
+      assert.equal(kept.status, 0, kept.stderr);
+      assert.match(kept.stdout, /^the frames do not tell the focal length; a guess.*--focal 64$/m);
+    }
   });
 });
 
