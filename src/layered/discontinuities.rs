@@ -1,13 +1,13 @@
 //! Stage 3: depth pixel by pixel, for regions whose depth has steps.
 //!
 //! A surface over control points cannot step. A region may want depth pixel by pixel where it leaves many of its pixels
-//! unexplained ([`UNEXPLAINED`]) and, if it is one of several, some of its matches lie elsewhere than its surface has them
-//! ([`MISPLACED`]). Then matches give its motion anew, a plane sweep its depth, and both are refined (`refine/`). They are
-//! taken if they cost less than [`GAIN`] of what the surface does, in the mean over the region. Often it was the motion that
-//! was wrong and not the surface: a surface through the depths found is estimated anew under the motion found, and stays
-//! unless depth pixel by pixel still costs less than [`GAIN`] of it, or the two are more than a pixel apart over much of the
-//! region ([`APART`]). Where the two are nowhere a pixel apart, there is no step. If that surface is no better than the one
-//! before, all stays as it was.
+//! unexplained ([`UNEXPLAINED`]) and, if it is one of several, costs more than σ² a pixel and has matches that lie elsewhere
+//! than its surface has them ([`MISPLACED`]). Then matches give its motion anew, a plane sweep its depth, and both are
+//! refined (`refine/`). They are taken if they cost less than [`GAIN`] of what the surface does, in the mean over the
+//! region. Often it was the motion that was wrong and not the surface: a surface through the depths found is estimated anew
+//! under the motion found, and stays unless depth pixel by pixel still costs less than [`GAIN`] of it, or the two are more
+//! than a pixel apart over much of the region ([`APART`]). Where the two are nowhere a pixel apart, there is no step. If
+//! that surface is no better than the one before, all stays as it was.
 
 use super::estimate::{State, Surface, most_cost};
 use super::label::saturation;
@@ -59,9 +59,13 @@ impl Layered {
             all += 1;
             bad += usize::from(cost > most);
         }
-        // Every outline brings hidden and shadowed pixels that no surface explains.
+        // Every outline brings hidden and shadowed pixels that no surface explains: of several regions only one that costs
+        // more than noise does may want more than a surface.
         let usual = UNEXPLAINED[0] * self.regions.len() as f64;
-        all >= FEWEST && bad as f64 > usual * all as f64
+        let noise = f64::from(self.sigma * self.sigma);
+        all >= FEWEST
+            && bad as f64 > usual * all as f64
+            && (self.regions.len() == 1 || self.surface_cost(k) > noise)
     }
 
     /// Looks for depth anew where it is wanted.
