@@ -3,7 +3,7 @@
 //! ```text
 //! first scale   planar rounds   fit a plane to each region, label           until labels stand still, 6 at most
 //!               search          candidate motions, models, surfaces, label  once
-//! every scale   rigid passes    estimate T, ω, ρ; ρ alone; label            until labels stand still, 2 at most
+//! every scale   rigid passes    estimate T, ω, ρ; ρ alone; label            until labels stand still, 2 at most; 1 when a film goes on
 //! second scale  select          models once more, in the second pass
 //! finest scale  refine          depth pixel by pixel where it has steps     once
 //! ```
@@ -287,7 +287,8 @@ impl Layered {
             // Models are compared when the scale has a picture, and by another energy.
             Phase::Rigid(0) if self.selects_in(1) => (Phase::Rigid(1), Next::Another),
             Phase::Rigid(done) => {
-                if !self.rejected && !still && !alone && done + 1 < PASSES {
+                let most = if self.warm { 1 } else { PASSES };
+                if !self.rejected && !still && !alone && done + 1 < most {
                     (Phase::Rigid(done + 1), Next::Again)
                 } else if self.level > 0 {
                     self.refine_scale();
