@@ -7,8 +7,9 @@
 //! Δ(1/Z) = 0
 //! ```
 //!
-//! with the 1/Z that is seen along the cut: a plane so goes on as the plane that it is. Its colours are mirrored at the
-//! cut and then smoothed. It stops where it would come before what is seen.
+//! with the 1/Z that is seen along the cut: a plane so goes on as the plane that it is. It is solved on every second pixel
+//! first, and so on down to [`SMALL`]. Its colours are mirrored at the cut and then smoothed. It stops where it would come
+//! before what is seen.
 
 use std::collections::VecDeque;
 
@@ -22,6 +23,9 @@ const APART: f32 = 0.02;
 /// the last digit.
 const SWEEPS: usize = 40;
 const OVER: f32 = 1.85;
+/// Sweeps from what every second pixel gave, of plain relaxation, and pixels from which on there are such.
+const FINE_SWEEPS: usize = 4;
+const SMALL: usize = 400_000;
 /// Sweeps that smooth the mirrored colours.
 const SMOOTHED: usize = 6;
 
@@ -35,8 +39,8 @@ pub(super) enum Cut {
 }
 
 impl Cut {
-    /// How far a surface is continued, as a share of the longer side. A body may be seen past altogether; a leap is often
-    /// no more than an edge.
+    /// How far a surface is continued at most, as a share of the longer side. A body may be seen past altogether; a leap is
+    /// often no more than an edge.
     fn furthest(self) -> f32 {
         match self {
             Self::Border => 0.5,
@@ -45,8 +49,9 @@ impl Cut {
     }
 }
 
-/// What is hidden behind `seen` across one kind of cut, nothing where nothing is known to be.
-pub(super) fn behind(seen: &Layer, leap: Leap, cut: Cut) -> Layer {
+/// What is hidden behind `seen` across one kind of cut, up to `reach` of the longer side from it; nothing where nothing is
+/// known to be.
+pub(super) fn behind(seen: &Layer, leap: Leap, cut: Cut, reach: f32) -> Layer {
     let (width, height) = (seen.rho.width(), seen.rho.height());
     let mut hidden = Layer {
         labels: Grid::new(width, height, NOTHING),
@@ -54,10 +59,42 @@ pub(super) fn behind(seen: &Layer, leap: Leap, cut: Cut) -> Layer {
         colours: Grid::new(width, height, [0; 3]),
         known: Grid::new(width, height, false),
     };
-    let order = flood(seen, &mut hidden, leap, cut);
-    relax(seen, &mut hidden, &order, leap);
-    smooth(&mut hidden, &order);
+    flood(seen, &mut hidden, leap, cut, reach);
+    if width * height > SMALL {
+        start_from(&mut hidden, &behind(&halved(seen), leap, cut, reach));
+        relax(seen, &mut hidden, leap, FINE_SWEEPS, 1.0);
+    } else {
+        relax(seen, &mut hidden, leap, SWEEPS, OVER);
+    }
+    smooth(&mut hidden);
     hidden
+}
+
+/// Every second pixel.
+fn halved(layer: &Layer) -> Layer {
+    Layer {
+        labels: every_second(&layer.labels),
+        rho: every_second(&layer.rho),
+        colours: every_second(&layer.colours),
+        known: every_second(&layer.known),
+    }
+}
+
+fn every_second<T: Copy>(grid: &Grid<T>) -> Grid<T> {
+    let (width, height) = (grid.width().div_ceil(2), grid.height().div_ceil(2));
+    Grid::from_fn(width, height, |x, y| grid[(2 * x, 2 * y)])
+}
+
+/// Takes 1/Z from every second pixel, where that is of the same surface.
+fn start_from(hidden: &mut Layer, coarse: &Layer) {
+    for y in 0..hidden.rho.height() {
+        for x in 0..hidden.rho.width() {
+            let (at, there) = ((x, y), (x / 2, y / 2));
+            if hidden.labels[at] != NOTHING && coarse.labels[there] == hidden.labels[at] {
+                hidden.rho[at] = coarse.rho[there];
+            }
+        }
+    }
 }
 
 /// The nearer and the farther of two neighbours that a cut parts; `None` where there is none.
@@ -85,10 +122,10 @@ fn beside(i: usize, width: usize, height: usize) -> impl Iterator<Item = usize> 
     .flatten()
 }
 
-/// Continues every surface, with the values of the nearest pixel that is seen of it; gives what was reached, in order.
-fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap, cut: Cut) -> Vec<usize> {
+/// Continues every surface, with the values of the nearest pixel that is seen of it.
+fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap, cut: Cut, reach: f32) {
     let (width, height) = (seen.rho.width(), seen.rho.height());
-    let furthest = (cut.furthest() * width.max(height) as f32) as u32;
+    let furthest = (cut.furthest().min(reach) * width.max(height) as f32).ceil() as u32;
     let (labels, rho) = (seen.labels.data(), seen.rho.data());
     let mut queue = VecDeque::new();
     for p in 0..labels.len() {
@@ -101,7 +138,6 @@ fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap, cut: Cut) -> Vec<usize> {
             }
         }
     }
-    let mut order = Vec::new();
     while let Some((at, source, far)) = queue.pop_front() {
         let label = labels[source];
         // Regions lie before the background, whatever their depth.
@@ -117,12 +153,10 @@ fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap, cut: Cut) -> Vec<usize> {
         hidden.rho.data_mut()[at] = rho[source];
         hidden.colours.data_mut()[at] = mirrored(seen, at, source);
         hidden.known.data_mut()[at] = seen.known.data()[source];
-        order.push(at);
         if far < furthest {
             queue.extend(beside(at, width, height).map(|next| (next, source, far + 1)));
         }
     }
-    order
 }
 
 /// The colour as far on the seen side of `source` as `at` lies on the hidden one.
@@ -142,7 +176,7 @@ fn mirrored(seen: &Layer, at: usize, source: usize) -> [u8; 3] {
     there.map_or(seen.colours.data()[source], |place| seen.colours[place])
 }
 
-fn relax(seen: &Layer, hidden: &mut Layer, order: &[usize], leap: Leap) {
+fn relax(seen: &Layer, hidden: &mut Layer, leap: Leap, sweeps: usize, over: f32) {
     let (width, height) = (seen.rho.width(), seen.rho.height());
     let behind = |rho: f32, at: usize| rho.min(seen.rho.data()[at] / (1.0 + APART));
     // What is seen of the surface lies across the cut.
@@ -151,14 +185,10 @@ fn relax(seen: &Layer, hidden: &mut Layer, order: &[usize], leap: Leap) {
         seen.labels.data()[at] != seen.labels.data()[next]
             || (near > far && leap.between(near, far))
     };
-    // A ghost is flat.
-    let order: Vec<usize> = order
-        .iter()
-        .copied()
-        .filter(|&at| hidden.known.data()[at])
-        .collect();
-    for _ in 0..SWEEPS {
-        for &at in &order {
+    let reached = reached(hidden);
+    for _ in 0..sweeps {
+        // A ghost is flat.
+        for &at in reached.iter().filter(|&&at| hidden.known.data()[at]) {
             let label = hidden.labels.data()[at];
             let here = hidden.rho.data()[at];
             let (mut sum, mut count) = (0.0, 0.0);
@@ -175,16 +205,25 @@ fn relax(seen: &Layer, hidden: &mut Layer, order: &[usize], leap: Leap) {
             }
             if count > 0.0 {
                 hidden.rho.data_mut()[at] =
-                    behind((here + OVER * (sum / count - here)).max(0.5 * here), at);
+                    behind((here + over * (sum / count - here)).max(0.5 * here), at);
             }
         }
     }
 }
 
-fn smooth(hidden: &mut Layer, order: &[usize]) {
+/// The pixels behind which something goes on, row by row.
+fn reached(hidden: &Layer) -> Vec<usize> {
+    let labels = hidden.labels.data();
+    (0..labels.len())
+        .filter(|&i| labels[i] != NOTHING)
+        .collect()
+}
+
+fn smooth(hidden: &mut Layer) {
     let (width, height) = (hidden.rho.width(), hidden.rho.height());
+    let reached = reached(hidden);
     for _ in 0..SMOOTHED {
-        for &at in order {
+        for &at in &reached {
             let label = hidden.labels.data()[at];
             let own = hidden.colours.data()[at].map(u32::from);
             let (mut sum, mut count) = (own.map(|c| 2 * c), 2);

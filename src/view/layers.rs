@@ -44,7 +44,8 @@ pub(super) struct Layers {
 }
 
 impl Layers {
-    pub fn of(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Self {
+    /// Both surfaces; the hidden one up to `reach` of the longer side from where it comes into sight.
+    pub fn of(frame: &Frame, found: &Interpretation, params: &ViewParams, reach: f32) -> Self {
         let (mut rho, known) = arranged(found, params);
         let labels = &found.labels;
         let mut values: Vec<f32> = rho
@@ -77,7 +78,7 @@ impl Layers {
             colours: (*frame.rgb).clone(),
             known,
         };
-        let hidden = [Cut::Border, Cut::Leap].map(|cut| behind(&seen, leap, cut));
+        let hidden = [Cut::Border, Cut::Leap].map(|cut| behind(&seen, leap, cut, reach));
         Self {
             seen,
             hidden,

@@ -83,7 +83,7 @@ pub fn mesh(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Mesh 
         places
     };
     let (columns, rows) = (along(width), along(height));
-    let layers = Layers::of(frame, found, params);
+    let layers = Layers::of(frame, found, params, 1.0);
     let mut builder = Builder {
         frame,
         found,

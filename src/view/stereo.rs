@@ -169,7 +169,8 @@ pub(super) fn pair(
     found: &Interpretation,
     params: &ViewParams,
 ) -> [Grid<[u8; 3]>; 2] {
-    let layers = Layers::of(frame, found, params);
+    // The nearest and the farthest part by twice the parallax.
+    let layers = Layers::of(frame, found, params, 3.0 * params.baseline as f32);
     let focal = found.camera.focal;
     let rig = Rig::over(&layers.seen.rho, &layers.seen.known, focal, params);
     let right = second_eye_of(&layers, focal, &rig, params.interpolate);
