@@ -192,14 +192,26 @@ pub(super) fn neighbourhood<const N: usize>(
 }
 
 /// The least or greatest value within [`REACH`] of each pixel.
-pub(super) fn window<T: Copy>(grid: &Grid<T>, choose: fn(T, T) -> T) -> Grid<T> {
+pub(super) fn window<T: Copy>(grid: &Grid<T>, choose: impl Fn(T, T) -> T) -> Grid<T> {
     let (width, height) = (grid.width(), grid.height());
-    let around = |at: usize, side: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(side);
-    let across = Grid::from_fn(width, height, |x, y| {
-        let row = grid.row(y);
-        row[around(x, width)].iter().copied().fold(row[x], choose)
-    });
-    Grid::from_fn(width, height, |x, y| {
-        around(y, height).fold(across[(x, y)], |a, y| choose(a, across[(x, y)]))
-    })
+    let into = |row: &mut [T], others: &[T]| {
+        for (value, other) in row.iter_mut().zip(others) {
+            *value = choose(*value, *other);
+        }
+    };
+    let mut across = grid.clone();
+    for y in 0..height {
+        let row = across.row_mut(y);
+        for shift in 1..=REACH.min(width - 1) {
+            into(row, &grid.row(y)[shift..]);
+            into(&mut row[shift..], grid.row(y));
+        }
+    }
+    let mut out = across.clone();
+    for y in 0..height {
+        for near in y.saturating_sub(REACH)..(y + REACH + 1).min(height) {
+            into(out.row_mut(y), across.row(near));
+        }
+    }
+    out
 }

@@ -28,6 +28,9 @@ pub(super) const PICTURES: [(&str, &str); 6] = [
     ("confidence", "confidence.png"),
 ];
 
+/// Pixels of `relief.png` at most: its surface has fewer vertices than that.
+const RELIEF: usize = 2_000_000;
+
 /// A curve as the solver has moved it.
 #[derive(Serialize, Tsify)]
 #[tsify(rename = "Contour")]
@@ -97,6 +100,10 @@ impl Solver {
         };
         let mut files = result::write(found, &self.motion_file(found))?;
         for (kind, name) in PICTURES {
+            let mut params = params.clone();
+            if kind == "relief" {
+                params.pixels = params.pixels.or(Some(RELIEF));
+            }
             files.push((name, png::write_rgba(&self.picture(kind, &params)?.0)?));
         }
         Ok(listed(files))
