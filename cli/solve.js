@@ -27,6 +27,9 @@ const OWN = /** @type {const} */ ({
   relief: { type: "boolean" },
 });
 
+/** Pixels of frames whose results are written at the frames' size. */
+const LARGEST = 25e6;
+
 /**
  * @param {Core} core
  * @param {string[]} words
@@ -59,6 +62,12 @@ export function solve(core, words) {
   if (focal) console.log(focal);
   if (found) announce(found);
   summarise(JSON.parse(solver.report()));
+  const [{ width, height }] = frames;
+  if (width * height > LARGEST) {
+    console.log(
+      `note: the frames have more than ${LARGEST / 1e6} megapixels; results are those of the frames shrunk, lengths in their pixels`,
+    );
+  }
   write(out, files);
   console.log(`${out}/: ${files.map(({ name }) => name).join(" ")}`);
   if (solver.status === "diverged") {

@@ -28,8 +28,18 @@ pub(super) const PICTURES: [(&str, &str); 6] = [
     ("confidence", "confidence.png"),
 ];
 
+/// Pixels of what is written at most: four of WebAssembly's gigabytes hold no more.
+const LARGEST: usize = 25_000_000;
 /// Pixels of `relief.png` at most: its surface has fewer vertices than that.
 const RELIEF: usize = 2_000_000;
+
+/// With a limit on pixels, if none was asked for.
+fn saved(params: ViewParams) -> ViewParams {
+    ViewParams {
+        pixels: Some(params.pixels.unwrap_or(LARGEST)),
+        ..params
+    }
+}
 
 /// A curve as the solver has moved it.
 #[derive(Serialize, Tsify)]
@@ -86,11 +96,20 @@ impl Solver {
         Ok(Mesh(view::mesh(frames.first(), &found, &params)))
     }
 
-    /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`].
+    /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`]; without `pixels`, of
+    /// frames of more than 25 megapixels all is written as of the frames shrunk until they have no more, as for half as
+    /// large frames.
     #[wasm_bindgen(unchecked_return_type = "{ name: string; bytes: Uint8Array<ArrayBuffer> }[]")]
     pub fn files(&self, params: &Json) -> Result<Array, Error> {
-        let params = params.view_params()?;
-        let found = self.found();
+        let params = saved(params.view_params()?);
+        let n = self.shrunk_for(&params);
+        let shrunk;
+        let found = if n == 1 {
+            self.found()
+        } else {
+            shrunk = self.found_shrunk(n);
+            &shrunk
+        };
         let scaled;
         let found = if params.scales.iter().all(|&s| s == 1.0) {
             found
@@ -102,7 +121,7 @@ impl Solver {
         for (kind, name) in PICTURES {
             let mut params = params.clone();
             if kind == "relief" {
-                params.pixels = params.pixels.or(Some(RELIEF));
+                params.pixels = params.pixels.map(|most| most.min(RELIEF));
             }
             files.push((name, png::write_rgba(&self.picture(kind, &params)?.0)?));
         }
@@ -114,7 +133,12 @@ impl Solver {
     #[wasm_bindgen(unchecked_return_type = "Uint8Array<ArrayBuffer>")]
     pub fn file(&self, name: &Word, params: &Json) -> Result<Uint8Array, Error> {
         let params = params.view_params()?;
-        let found = self.found().scaled(&params.scales);
+        let n = self.shrunk_for(&saved(params.clone()));
+        let found = if n == 1 {
+            self.found().scaled(&params.scales)
+        } else {
+            self.found_shrunk(n).scaled(&params.scales)
+        };
         let motion = self.motion_file(&found);
         files::one(&name.text("name of the file")?, &found, &motion, || {
             let n = self.shrunk_for(&params);
