@@ -143,10 +143,20 @@ impl Camera {
     }
 }
 
+/// The matrix that turns by ω.
+pub(crate) fn turn(omega: DVec3) -> DMat3 {
+    DMat3::from_quat(DQuat::from_scaled_axis(omega))
+}
+
+/// ω of a matrix that turns.
+pub(crate) fn omega(rotation: &DMat3) -> DVec3 {
+    DQuat::from_mat3(rotation).to_scaled_axis()
+}
+
 impl RigidMotion {
     /// The rotation matrix R(ω) = exp(`[ω]×`).
     pub fn matrix(&self) -> DMat3 {
-        DMat3::from_quat(DQuat::from_scaled_axis(self.rotation))
+        turn(self.rotation)
     }
 
     /// Where a point of the body is one frame later.

@@ -17,7 +17,7 @@ use crate::error::Error;
 /// assert_eq!(ramp.row(1), [10.0, 11.0, 12.0, 13.0]);
 /// assert_eq!(ramp.bilinear(0.5, 1.0), 10.5);
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Grid<T> {
     width: usize,
     height: usize,

@@ -67,6 +67,7 @@
 
 pub mod camera;
 mod confidence;
+mod connected;
 pub mod constraint;
 pub mod curves;
 pub mod energy;
@@ -87,6 +88,7 @@ pub mod probe;
 #[cfg(feature = "scenes")]
 pub mod scene;
 pub mod score;
+mod smoothness;
 pub mod solver;
 mod spread;
 mod srgb;

@@ -33,6 +33,12 @@ impl Window {
         }
     }
 
+    /// Its pixels, row by row.
+    pub(crate) fn pixels(self) -> impl Iterator<Item = (usize, usize)> {
+        let columns = self.left..self.left + self.width;
+        (self.top..self.top + self.height).flat_map(move |y| columns.clone().map(move |x| (x, y)))
+    }
+
     /// The smallest window with every pixel of a `width × height` frame for which `inside` holds; `None` when there is no
     /// such pixel.
     pub fn around(width: usize, height: usize, inside: impl Fn(usize) -> bool) -> Option<Self> {

@@ -1,6 +1,10 @@
-//! From level sets to labels.
+//! From level sets to labels, and back.
 
+use crate::frames::blur;
 use crate::grid::Grid;
+
+/// Standard deviation of the Gaussian that turns labels into level sets of their outlines, in pixels of the labels.
+const BLUR: f32 = 0.7;
 
 /// Who is where: k where φk is the largest above 0, 0 outside all curves.
 pub fn labels(phi: &[Grid<f32>], width: usize, height: usize) -> Grid<u8> {
@@ -17,6 +21,13 @@ pub fn labels(phi: &[Grid<f32>], width: usize, height: usize) -> Grid<u8> {
         }
     }
     labels
+}
+
+/// The level set of what is `inside`: how much more of the surroundings are than are not, in pixels. Labels were found in
+/// pixels `side` times as large.
+pub(crate) fn smoothed(inside: &Grid<bool>, side: f32) -> Grid<f32> {
+    let signs = inside.map(|inside| if inside { 1.0 } else { -1.0 });
+    blur(&signs, f64::from(BLUR * side)).map(|share| side * share)
 }
 
 /// Pixels of which one labelling says something else than another of the same size.

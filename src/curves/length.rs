@@ -2,9 +2,6 @@
 
 use crate::grid::Grid;
 
-/// Pixels that are passed over together when the curve is far from all of them.
-const STRETCH: usize = 16;
-
 /// Length of the zero line of φ, in pixels.
 pub fn length(phi: &Grid<f32>) -> f64 {
     let width = phi.width();
@@ -13,16 +10,10 @@ pub fn length(phi: &Grid<f32>) -> f64 {
         let above = phi.row(y.saturating_sub(1));
         let below = phi.row((y + 1).min(phi.height() - 1));
         let here = phi.row(y);
-        for first in (0..width).step_by(STRETCH) {
-            let stretch = &here[first..(first + STRETCH).min(width)];
-            let near = stretch.iter().fold(false, |near, p| near | (p.abs() < 1.0));
-            if near {
-                for (x, p) in (first..).zip(stretch).filter(|(_, p)| p.abs() < 1.0) {
-                    let gx = here[(x + 1).min(width - 1)] - here[x.saturating_sub(1)];
-                    let gy = below[x] - above[x];
-                    sum += f64::from((1.0 - p.abs()) * 0.5 * gx.hypot(gy));
-                }
-            }
+        for (x, p) in here.iter().enumerate().filter(|(_, p)| p.abs() < 1.0) {
+            let gx = here[(x + 1).min(width - 1)] - here[x.saturating_sub(1)];
+            let gy = below[x] - above[x];
+            sum += f64::from((1.0 - p.abs()) * 0.5 * gx.hypot(gy));
         }
     }
     sum

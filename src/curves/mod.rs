@@ -7,7 +7,8 @@ mod polygon;
 mod shape;
 
 pub use contour::{Contour, contours};
-pub(crate) use labels::differing;
 pub use labels::labels;
+pub(crate) use labels::{differing, smoothed};
 pub use length::length;
+pub(crate) use polygon::sides;
 pub use shape::Shape;

@@ -11,7 +11,7 @@ use crate::window::Window;
 type Point = [f64; 2];
 
 /// The sides, from each corner to the next and from the last to the first.
-fn sides(corners: &[Point]) -> impl Iterator<Item = [Point; 2]> {
+pub(crate) fn sides(corners: &[Point]) -> impl Iterator<Item = [Point; 2]> {
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).map(|(&a, &b)| [a, b])
 }

@@ -40,6 +40,17 @@ impl Packer {
         self.0.extend(number.to_le_bytes());
     }
 
+    /// Which of `all` it is.
+    pub fn one_of<T: PartialEq>(&mut self, all: &[T], which: &T) {
+        self.whole(all.iter().position(|one| one == which).unwrap_or(0));
+    }
+
+    /// As many as there are, one after the other.
+    pub fn list<T>(&mut self, things: &[T], write: impl Fn(&mut Self, &T)) {
+        self.whole(things.len());
+        things.iter().for_each(|thing| write(self, thing));
+    }
+
     /// One byte a pixel, as runs.
     pub fn labels(&mut self, labels: &[u8]) {
         for run in labels.chunk_by(|a, b| a == b) {
@@ -136,16 +147,53 @@ impl<'a> Unpacker<'a> {
         Ok(f64::from_le_bytes(self.array()?))
     }
 
+    /// Numbers that are finite.
     pub fn floats<const N: usize>(&mut self) -> Result<[f64; N], Error> {
         let mut numbers = [0.0; N];
         for number in &mut numbers {
             *number = self.float()?;
         }
+        self.numbers(numbers.iter().all(|number| number.is_finite()))?;
         Ok(numbers)
     }
 
+    /// A number that is finite.
     pub fn single(&mut self) -> Result<f32, Error> {
-        Ok(f32::from_le_bytes(self.array()?))
+        let number = f32::from_le_bytes(self.array()?);
+        self.numbers(number.is_finite())?;
+        Ok(number)
+    }
+
+    fn numbers(&self, are: bool) -> Result<(), Error> {
+        if are {
+            Ok(())
+        } else {
+            Err(self.wrong("a number in it is none"))
+        }
+    }
+
+    /// One of `all`.
+    pub fn one_of<T: Copy>(&mut self, all: &[T]) -> Result<T, Error> {
+        Ok(all[self.whole(all.len() - 1)?])
+    }
+
+    /// At most so many things.
+    pub fn list<T>(
+        &mut self,
+        most: usize,
+        read: impl Fn(&mut Self) -> Result<T, Error>,
+    ) -> Result<Vec<T>, Error> {
+        let count = self.whole(most)?;
+        self.times(count, read)
+    }
+
+    /// So many things.
+    pub fn times<T>(
+        &mut self,
+        count: usize,
+        read: impl Fn(&mut Self) -> Result<T, Error>,
+    ) -> Result<Vec<T>, Error> {
+        (0..count).map(|_| read(self)).collect()
     }
 
     /// So many labels, each of which is `known`.
@@ -168,11 +216,8 @@ impl<'a> Unpacker<'a> {
         let values: Vec<f32> = from_planes(bytes)
             .map(|bits| f32::from_bits(bits.cast_unsigned()))
             .collect();
-        if values.iter().all(|value| value.is_finite()) {
-            Ok(values)
-        } else {
-            Err(self.wrong("a number in it is none"))
-        }
+        self.numbers(values.iter().all(|value| value.is_finite()))?;
+        Ok(values)
     }
 
     /// So many whole numbers that were written as [`Packer::alike`].

@@ -106,16 +106,8 @@ impl From<DecodingError> for Refused {
 
 impl<'a> Unread<'a> {
     pub fn open(bytes: &'a [u8]) -> Result<Self, Refused> {
-        if palette_breaks_off(bytes) {
-            return Err(Refused::PaletteCutShort);
-        }
-        let limits = Limits { bytes: MOST_BYTES };
-        let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
-        decoder.set_ignore_text_chunk(true);
-        decoder.set_ignore_iccp_chunk(true);
         // Palettes and fewer bits than eight become bytes, a transparent colour becomes alpha.
-        decoder.set_transformations(Transformations::EXPAND);
-        let reader = decoder.read_info()?;
+        let reader = reader(bytes, Transformations::EXPAND)?;
         let (width, height) = reader.info().size();
         Ok(Self {
             width,
@@ -177,6 +169,22 @@ pub(super) fn wrong(name: &str, format: &'static str, refused: Refused) -> Error
 /// Whether the bytes are such a file.
 pub(crate) fn is_png(bytes: &[u8]) -> bool {
     bytes.starts_with(SIGNATURE)
+}
+
+/// A reader at the first picture's data, which keeps within [`MOST_BYTES`].
+pub(crate) fn reader(
+    bytes: &[u8],
+    transformations: Transformations,
+) -> Result<png::Reader<Cursor<&[u8]>>, Refused> {
+    if palette_breaks_off(bytes) {
+        return Err(Refused::PaletteCutShort);
+    }
+    let limits = Limits { bytes: MOST_BYTES };
+    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    decoder.set_transformations(transformations);
+    Ok(decoder.read_info()?)
 }
 
 /// Whether the bytes are a PNG whose palette ends within a colour. The decoder would panic.

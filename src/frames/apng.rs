@@ -4,15 +4,16 @@
 //! there is left, cleared, or brought back (PNG Specification, third edition, 11.3.6). A first picture that does not
 //! belong to the animation is passed over. Frames are of 8 bits.
 
-use png::{BlendOp, Decoder, DisposeOp, FrameControl, Limits, Transformations};
 use std::io::Cursor;
+
+use ::png::{BlendOp, DisposeOp, FrameControl, Transformations};
 
 use super::film::{Contents, Kind, Take};
 use super::frame::check_size;
 use super::samples::{Raw, Samples, UPRIGHT};
 use super::unpack::refused;
 use crate::error::Error;
-use crate::file::png::{MOST_BYTES, Refused, palette_breaks_off};
+use crate::file::png::{self, MOST_BYTES, Refused};
 use crate::grid::Grid;
 
 /// Hands on the frames of an animation; `None` where the file holds a still picture.
@@ -66,20 +67,11 @@ pub(super) fn each_frame(bytes: &[u8], name: &str, take: Take) -> Result<Option<
     Ok(Some(contents))
 }
 
-type Reader<'a> = png::Reader<Cursor<&'a [u8]>>;
+type Reader<'a> = ::png::Reader<Cursor<&'a [u8]>>;
 
 fn open(bytes: &[u8]) -> Result<Reader<'_>, Refused> {
-    if palette_breaks_off(bytes) {
-        return Err(Refused::PaletteCutShort);
-    }
-    let limits = Limits { bytes: MOST_BYTES };
-    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
-    decoder.set_ignore_text_chunk(true);
-    decoder.set_ignore_iccp_chunk(true);
-    decoder.set_transformations(
-        Transformations::EXPAND | Transformations::ALPHA | Transformations::STRIP_16,
-    );
-    Ok(decoder.read_info()?)
+    let eight_bits = Transformations::ALPHA | Transformations::STRIP_16;
+    png::reader(bytes, Transformations::EXPAND | eight_bits)
 }
 
 /// Unpacks the next frame into `part`; where it goes.

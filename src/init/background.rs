@@ -4,19 +4,17 @@
 //! explained to within their uncertainty then. Otherwise the full motion is sought from all matches and from the segment that holds most of the border, each time
 //! anew from the segments that it explains; the motion that explains more of the frame stays.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 use super::epipolar::{Pair, epipolar_motion, median};
 use super::lattice::Lattice;
 use super::matches::Match;
 use super::rotation::rotation_alone;
-use super::sample::{Carrier, Sample};
+use super::sample::{Carrier, EXPLAINED, Sample};
 use super::segments::{Segments, segments};
 use crate::camera::{Camera, RigidMotion};
 use crate::motion_model::MotionModel;
 
-/// χ² above which a match is not explained.
-pub const UNEXPLAINED: f64 = 9.0;
 /// Width of the border in shares of the frame's sides.
 const BORDER: f32 = 0.1;
 /// Share of the border's matches that rest or a rotation has to explain.
@@ -41,7 +39,7 @@ const SAMPLE: usize = 1500;
 /// The background's motion, and whether it has a translation; `None` where too little is matched.
 pub fn background(
     samples: &[Sample],
-    segments: impl FnOnce() -> Segments,
+    segments: &Segments,
     camera: &Camera,
     size: [usize; 2],
 ) -> Option<(RigidMotion, bool)> {
@@ -49,7 +47,7 @@ pub fn background(
     let fits = |motion: &RigidMotion, middle: f64| {
         let carrier = Carrier::new(motion, camera);
         let misfit: Vec<f64> = border.iter().map(|s| carrier.misfit(s)).collect();
-        let explained = misfit.iter().filter(|&&m| m < UNEXPLAINED).count();
+        let explained = misfit.iter().filter(|&&m| m < EXPLAINED).count();
         explained as f64 > MOST * misfit.len() as f64 && median(misfit) < middle
     };
     let still = RigidMotion::default();
@@ -59,16 +57,14 @@ pub fn background(
     let mut pairs: Vec<Pair> = border.iter().map(|s| s.pair()).collect();
     let mut turned = still;
     for _ in 0..ROUNDS {
-        let (rotation, _) = rotation_alone(&pairs, camera.focal);
-        turned.rotation = DQuat::from_mat3(&rotation).to_scaled_axis();
+        (turned.rotation, _) = rotation_alone(&pairs, camera.focal);
         let carrier = Carrier::new(&turned, camera);
-        let explained = samples.iter().filter(|s| carrier.misfit(s) < UNEXPLAINED);
+        let explained = samples.iter().filter(|s| carrier.explains(s));
         pairs = explained.map(Sample::pair).collect();
     }
     if fits(&turned, TURNED) {
         return Some((turned, false));
     }
-    let segments = segments();
     let mut held = vec![0usize; segments.count];
     for (sample, segment) in samples.iter().zip(&segments.of) {
         if let Some(s) = segment.filter(|_| on_border(sample, size)) {
@@ -87,7 +83,7 @@ pub fn background(
                 break;
             };
             let motion = ahead(samples, motion, camera);
-            chosen = carried(samples, &segments, &motion, camera);
+            chosen = carried(samples, segments, &motion, camera);
             if best.is_none_or(|(count, _)| chosen.len() > count) {
                 best = Some((chosen.len(), motion));
             }
@@ -101,12 +97,11 @@ pub fn background(
 
 /// The matches of the segments that the background's motion explains mainly; `None` when it has no translation.
 pub fn scenery(samples: &[Sample], camera: &Camera, size: [usize; 2]) -> Option<Vec<Match>> {
-    let lattice = Lattice::new(samples, size);
-    let whole = || segments(samples, &lattice);
-    let (motion, translates) = background(samples, whole, camera, size)?;
+    let lattice = Lattice::new(samples.iter().map(|s| &s.matched), size);
+    let segments = segments(samples, &lattice);
+    let (motion, translates) = background(samples, &segments, camera, size)?;
     let carrier = Carrier::new(&motion, camera);
-    let segments = whole();
-    let shares = segments.shares(|k| carrier.misfit(&samples[k]) < UNEXPLAINED);
+    let shares = segments.shares(|k| carrier.explains(&samples[k]));
     let members = segments.members(|s| shares[s] > MAINLY).concat();
     translates.then(|| members.iter().map(|&k| samples[k].matched).collect())
 }
@@ -136,10 +131,7 @@ fn ahead(samples: &[Sample], motion: RigidMotion, camera: &Camera) -> RigidMotio
     };
     let explained = |motion: &RigidMotion| {
         let carrier = Carrier::new(motion, camera);
-        samples
-            .iter()
-            .filter(|s| carrier.misfit(s) < UNEXPLAINED)
-            .count()
+        samples.iter().filter(|s| carrier.explains(s)).count()
     };
     let here = explained(&motion);
     if here as f64 > PLENTY * samples.len() as f64 {
@@ -164,10 +156,7 @@ fn carried(
     camera: &Camera,
 ) -> Vec<usize> {
     let carrier = Carrier::new(motion, camera);
-    let explained: Vec<bool> = samples
-        .iter()
-        .map(|s| carrier.misfit(s) < UNEXPLAINED)
-        .collect();
+    let explained: Vec<bool> = samples.iter().map(|s| carrier.explains(s)).collect();
     let shares = segments.shares(|k| explained[k]);
     let carried = |k: &usize| explained[*k] && segments.of[*k].is_some_and(|s| shares[s] > MAINLY);
     (0..samples.len()).filter(carried).collect()

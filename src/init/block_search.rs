@@ -14,18 +14,14 @@ use crate::grid::Grid;
 pub const SPACING: usize = 4;
 /// Largest displacement, as a share of the frame's width and height.
 const REACH: f32 = 0.2;
-/// Side of a block in pixels.
+/// Side of a block in pixels; a frame is continued by as many on all sides, since blocks stick out.
 const BLOCK: usize = 8;
-/// Pixels by which a frame is continued on all sides.
-const PAD: usize = 16;
 /// Steps of a grey level, so that 16-bit whole numbers do.
 const STEPS: f32 = 8.0;
 /// A difference above this many steps counts as this many.
 const CLIP: i16 = 400;
 /// The cost of a block that lies outside the other frame.
 const OUTSIDE: i32 = 1 << 20;
-/// What a pixel of displacement costs on the coarsest level, in steps: where there is no texture, stay.
-const LENGTH_COST: i32 = 8;
 
 /// A picture in whole steps, continued outwards.
 pub struct Blocks {
@@ -39,14 +35,14 @@ impl Blocks {
     /// From a picture in grey levels between -255 and 255.
     pub fn new(picture: &Grid<f32>) -> Self {
         let (width, height) = (picture.width(), picture.height());
-        let stride = width + 2 * PAD;
-        let mut steps = Vec::with_capacity(stride * (height + 2 * PAD));
-        for y in 0..height + 2 * PAD {
-            let row = picture.row(y.saturating_sub(PAD).min(height - 1));
+        let stride = width + 2 * BLOCK;
+        let mut steps = Vec::with_capacity(stride * (height + 2 * BLOCK));
+        for y in 0..height + 2 * BLOCK {
+            let row = picture.row(y.saturating_sub(BLOCK).min(height - 1));
             let step = |v: f32| (v * STEPS) as i16;
-            steps.extend(std::iter::repeat_n(step(row[0]), PAD));
+            steps.extend(std::iter::repeat_n(step(row[0]), BLOCK));
             steps.extend(row.iter().map(|&v| step(v)));
-            steps.extend(std::iter::repeat_n(step(row[width - 1]), PAD));
+            steps.extend(std::iter::repeat_n(step(row[width - 1]), BLOCK));
         }
         Self {
             width,
@@ -58,7 +54,7 @@ impl Blocks {
 
     /// Where the block around pixel (x, y) begins. A block may stick out by half of it.
     fn offset(&self, x: i32, y: i32) -> usize {
-        let first = PAD as i32 - BLOCK as i32 / 2;
+        let first = BLOCK as i32 / 2;
         (y + first) as usize * self.stride + (x + first) as usize
     }
 
@@ -72,8 +68,8 @@ impl Blocks {
         let there = &other.steps[other.offset(tx, ty)..][..7 * other.stride + BLOCK];
         let mut sums = [0i16; BLOCK];
         for r in 0..BLOCK {
-            let a: &[i16; BLOCK] = here[r * self.stride..][..BLOCK].as_array_ref();
-            let b: &[i16; BLOCK] = there[r * other.stride..][..BLOCK].as_array_ref();
+            let a = &here[r * self.stride..][..BLOCK];
+            let b = &there[r * other.stride..][..BLOCK];
             for c in 0..BLOCK {
                 sums[c] += (a[c] - b[c]).abs().min(CLIP);
             }
@@ -82,37 +78,14 @@ impl Blocks {
     }
 }
 
-trait AsArrayRef {
-    fn as_array_ref(&self) -> &[i16; BLOCK];
+/// The pixel of point (i, j) of a `width × height` frame.
+pub fn point(i: usize, j: usize, width: usize, height: usize) -> [i32; 2] {
+    let at = |k: usize, side: usize| (SPACING * k + SPACING / 2).min(side - 1) as i32;
+    [at(i, width), at(j, height)]
 }
 
-impl AsArrayRef for [i16] {
-    fn as_array_ref(&self) -> &[i16; BLOCK] {
-        self.try_into().expect("a slice of eight")
-    }
-}
-
-/// A displacement at each of the points of a frame, in whole pixels.
-pub struct Displacements {
-    /// Points in a row.
-    pub across: usize,
-    /// Rows of points.
-    pub down: usize,
-    /// dx, dy of each point, row by row.
-    pub found: Vec<[i32; 2]>,
-    cost: Vec<i32>,
-}
-
-impl Displacements {
-    /// The pixel of point (i, j) of a `width × height` frame.
-    pub fn point(i: usize, j: usize, width: usize, height: usize) -> [i32; 2] {
-        let at = |k: usize, side: usize| (SPACING * k + SPACING / 2).min(side - 1) as i32;
-        [at(i, width), at(j, height)]
-    }
-}
-
-/// The displacement from `first` to `second` of the points of the finest level; both are pyramids, finest first.
-pub fn search(first: &[Blocks], second: &[Blocks]) -> Displacements {
+/// dx, dy in whole pixels from `first` to `second` at each point of the finest level; both are pyramids, finest first.
+pub fn search(first: &[Blocks], second: &[Blocks]) -> Grid<[i32; 2]> {
     let mut levels = first.iter().zip(second).rev();
     let (a, b) = levels.next().expect("a pyramid has a level");
     let mut found = Level { a, b }.coarsest();
@@ -128,6 +101,7 @@ struct Level<'a> {
 }
 
 /// The best displacement of one point so far.
+#[derive(Clone, Copy)]
 struct Best {
     at: [i32; 2],
     displacement: [i32; 2],
@@ -135,36 +109,27 @@ struct Best {
 }
 
 impl Level<'_> {
-    fn empty(&self) -> Displacements {
-        let [across, down] = [self.a.width, self.a.height].map(|side| side.div_ceil(SPACING));
-        Displacements {
-            across,
-            down,
-            found: vec![[0, 0]; across * down],
-            cost: vec![OUTSIDE; across * down],
-        }
-    }
-
-    fn coarsest(&self) -> Displacements {
+    fn coarsest(&self) -> Grid<[i32; 2]> {
         let [mx, my] = [self.a.width, self.a.height].map(|side| (REACH * side as f32) as i32);
         self.visit(|_, _, best| {
             for dy in -my..=my {
                 for dx in -mx..=mx {
-                    let extra = LENGTH_COST * (dx.abs() + dy.abs());
+                    // Where there is no texture, stay: a pixel costs a grey level.
+                    let extra = STEPS as i32 * (dx.abs() + dy.abs());
                     best.test(self, [dx, dy], extra);
                 }
             }
         })
     }
 
-    fn finer(&self, coarse: &Displacements) -> Displacements {
+    fn finer(&self, coarse: &Grid<[i32; 2]>) -> Grid<[i32; 2]> {
         self.visit(|i, j, best| {
             let (ci, cj) = (i / 2, j / 2);
             let mut tried = [[i32::MAX; 2]; 9];
             let mut count = 0;
-            for q in cj.saturating_sub(1)..(cj + 2).min(coarse.down) {
-                for p in ci.saturating_sub(1)..(ci + 2).min(coarse.across) {
-                    let d = coarse.found[q * coarse.across + p].map(|d| 2 * d);
+            for q in cj.saturating_sub(1)..(cj + 2).min(coarse.height()) {
+                for p in ci.saturating_sub(1)..(ci + 2).min(coarse.width()) {
+                    let d = coarse[(p, q)].map(|d| 2 * d);
                     if !tried[..count].contains(&d) {
                         tried[count] = d;
                         count += 1;
@@ -176,47 +141,41 @@ impl Level<'_> {
     }
 
     /// Fills the points: `propose` tests candidates, then the neighbours' displacements and small steps follow.
-    fn visit(&self, propose: impl Fn(usize, usize, &mut Best)) -> Displacements {
-        let mut all = self.empty();
-        let (across, down) = (all.across, all.down);
-        let pixel = |i, j| Displacements::point(i, j, self.a.width, self.a.height);
+    fn visit(&self, propose: impl Fn(usize, usize, &mut Best)) -> Grid<[i32; 2]> {
+        let (width, height) = (self.a.width, self.a.height);
+        let [across, down] = [width, height].map(|side| side.div_ceil(SPACING));
+        let mut all = Grid::from_fn(across, down, |i, j| Best {
+            at: point(i, j, width, height),
+            displacement: [0, 0],
+            cost: OUTSIDE,
+        });
         for j in 0..down {
             for i in 0..across {
-                let k = j * across + i;
-                let mut best = Best {
-                    at: pixel(i, j),
-                    displacement: [0, 0],
-                    cost: OUTSIDE,
-                };
+                let mut best = all[(i, j)];
                 propose(i, j, &mut best);
                 if i > 0 {
-                    best.test(self, all.found[k - 1], 0);
+                    best.test(self, all[(i - 1, j)].displacement, 0);
                 }
                 if j > 0 {
-                    best.test(self, all.found[k - across], 0);
+                    best.test(self, all[(i, j - 1)].displacement, 0);
                 }
                 best.descend(self);
-                all.found[k] = best.displacement;
-                all.cost[k] = best.cost;
+                all[(i, j)] = best;
             }
         }
-        for k in (0..across * down).rev() {
-            let (i, j) = (k % across, k / across);
-            let mut best = Best {
-                at: pixel(i, j),
-                displacement: all.found[k],
-                cost: all.cost[k],
-            };
-            if i + 1 < across {
-                best.test(self, all.found[k + 1], 0);
+        for j in (0..down).rev() {
+            for i in (0..across).rev() {
+                let mut best = all[(i, j)];
+                if i + 1 < across {
+                    best.test(self, all[(i + 1, j)].displacement, 0);
+                }
+                if j + 1 < down {
+                    best.test(self, all[(i, j + 1)].displacement, 0);
+                }
+                all[(i, j)] = best;
             }
-            if j + 1 < down {
-                best.test(self, all.found[k + across], 0);
-            }
-            all.found[k] = best.displacement;
-            all.cost[k] = best.cost;
         }
-        all
+        all.map(|best| best.displacement)
     }
 }
 

@@ -4,7 +4,7 @@
 use crate::grid::Grid;
 
 /// The mean over the (2 `radius` + 1)² pixels around each, of those that lie on the picture.
-pub fn box_mean(picture: &Grid<f32>, radius: usize) -> Grid<f32> {
+fn box_mean(picture: &Grid<f32>, radius: usize) -> Grid<f32> {
     let (width, height) = (picture.width(), picture.height());
     let mut across = Grid::new(width, height, 0.0f32);
     for y in 0..height {

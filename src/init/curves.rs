@@ -7,12 +7,12 @@
 //!
 //! What moves as the background would at another depth cannot be told from scenery.
 
-use super::background::{CARRIED, UNEXPLAINED, background};
-use super::epipolar::median;
+use super::background::{CARRIED, background};
+use super::epipolar::{FEWEST, median};
 use super::lattice::Lattice;
 use super::outline::at_pixels;
 use super::pieces::{field, joined};
-use super::sample::{Carrier, small_samples};
+use super::sample::{Carrier, EXPLAINED, small_samples};
 use super::segments::segments;
 use crate::camera::Camera;
 use crate::frames::FramePair;
@@ -22,8 +22,6 @@ use crate::ordered::ordered;
 /// A body covers at least this share of the lattice.
 const SMALLEST: f64 = 0.008;
 
-/// Fewest matches of a piece of one.
-const FEW: usize = 12;
 /// Median χ² of the matches of a piece from which on it is looked at, before a background in translation and before one
 /// that rests or turns: 0.45 and 1.4 are expected of what moves as the background does.
 const SEEN_FULL: f64 = 2.0;
@@ -47,20 +45,19 @@ pub(crate) struct Candidates {
 pub(crate) fn candidates(pair: &FramePair, camera: &Camera) -> Option<Candidates> {
     let small = small_samples(pair, camera);
     let (samples, camera, size) = (small.samples, small.camera, small.size);
-    let lattice = Lattice::new(&samples, size);
-    let whole = || segments(&samples, &lattice);
-    let (motion, full) = background(&samples, whole, &camera, size)?;
+    let lattice = Lattice::new(samples.iter().map(|s| &s.matched), size);
+    let segments = segments(&samples, &lattice);
+    let (motion, full) = background(&samples, &segments, &camera, size)?;
     let carrier = Carrier::new(&motion, &camera);
     let misfit: Vec<f64> = samples.iter().map(|s| carrier.misfit(s)).collect();
     let fewest = (SMALLEST * lattice.places() as f64) as usize;
-    let segments = whole();
-    let shares = segments.shares(|k| misfit[k] < UNEXPLAINED);
+    let shares = segments.shares(|k| misfit[k] < EXPLAINED);
     let middles = segments.medians(&misfit);
     let least = if full { SEEN_FULL } else { SEEN_STILL };
     let usual = least.max(UNUSUAL * median(misfit.clone()));
     let mut pieces = segments.members(|s| shares[s] <= CARRIED || middles[s] > usual);
     pieces.retain(|piece| 2 * piece.len() < samples.len());
-    pieces.retain(|piece| piece.len() >= FEW);
+    pieces.retain(|piece| piece.len() >= FEWEST);
     let mut found = joined(pieces, &samples, &lattice, &camera);
     found.retain(|piece| piece.len() >= fewest);
     found = ordered(found, |piece| -(piece.len() as f64));

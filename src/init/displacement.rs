@@ -11,7 +11,7 @@
 
 use serde::Serialize;
 
-use super::block_search::SPACING;
+use super::lattice::Lattice;
 use super::matches::{Match, matches};
 use crate::grid::Grid;
 
@@ -95,26 +95,14 @@ pub fn displacement(first: &Grid<f32>, second: &Grid<f32>) -> Displacement {
 
 /// Lengths in pixels of the displacements that most of their neighbours share.
 fn holding_together(found: &[Match], frame: &Grid<f32>) -> Vec<f32> {
-    let place = |m: &Match| (m.at[0] as usize / SPACING, m.at[1] as usize / SPACING);
-    let (across, down) = (
-        frame.width().div_ceil(SPACING),
-        frame.height().div_ceil(SPACING),
-    );
-    let mut moved: Grid<Option<[f32; 2]>> = Grid::new(across, down, None);
-    for m in found {
-        moved[place(m)] = Some(m.displacement());
-    }
+    let lattice = Lattice::new(found, [frame.width(), frame.height()]);
     let holds = |m: &&Match| {
-        let (i, j) = place(m);
         let [dx, dy] = m.displacement();
         let (mut alike, mut others) = (0, 0);
-        for y in j.saturating_sub(1)..(j + 2).min(down) {
-            for x in i.saturating_sub(1)..(i + 2).min(across) {
-                if let Some([u, v]) = moved[(x, y)].filter(|_| (x, y) != (i, j)) {
-                    others += 1;
-                    alike += usize::from((u - dx).hypot(v - dy) < ALIKE);
-                }
-            }
+        for other in lattice.around(m, 1) {
+            let [u, v] = found[other].displacement();
+            others += 1;
+            alike += usize::from((u - dx).hypot(v - dy) < ALIKE);
         }
         others > 1 && 2 * alike > others
     };

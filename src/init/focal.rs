@@ -9,20 +9,21 @@
 //! ```
 //!
 //! n being the number of matches over [`SHARED`], as their windows overlap, and the last term how lenses are spread
-//! about a field of view of 53°. First every ⁴√2 from [`SHORTEST`] to [`LONGEST`] sides, then closer to the best. Most
+//! about a field of view of 53°. First every ⁴√2 ([`POWERS`]), then closer to the best. Most
 //! frames tell little of f: only what beats the f they were given with by [`DECISIVE`] counts.
+
+use std::ops::RangeInclusive;
 
 use serde::Serialize;
 
-use super::background::{UNEXPLAINED, scenery, whole_motion};
-use super::sample::{Carrier, Sample, small_samples};
+use super::background::{scenery, whole_motion};
+use super::sample::{Carrier, EXPLAINED, Sample, small_samples};
 use crate::camera::Camera;
 use crate::frames::FramePair;
 use crate::ordered::ordered;
 
-/// Focal lengths tried, in longer sides of the frame: fields of view of 110° to 10°.
-const SHORTEST: f64 = 0.354;
-const LONGEST: f64 = 5.66;
+/// Powers of ⁴√2 that are tried as focal lengths, in longer sides of the frame: fields of view of 110° to 10°.
+const POWERS: RangeInclusive<i32> = -6..=10;
 /// Matches that share one independent observation.
 const SHARED: f64 = 20.0;
 /// 2 log of the odds that are asked for, e³⁰ to one: a wrong f looks better now and then.
@@ -75,17 +76,14 @@ pub fn focal_length(pair: &FramePair, camera: &Camera) -> Option<FocalLength> {
             .map(|s| Sample::new(s.matched, &camera));
         let samples: Vec<Sample> = seen.collect();
         let carrier = Carrier::new(&whole_motion(&samples, &camera)?, &camera);
-        let each = samples.iter().map(|s| carrier.misfit(s).min(UNEXPLAINED));
+        let each = samples.iter().map(|s| carrier.misfit(s).min(EXPLAINED));
         let unusual = (focal / side).ln() / std::f64::consts::LN_2;
         Some(count * each.sum::<f64>().ln() + unusual * unusual)
     };
     let given = cost(camera.focal).filter(|cost| cost.is_finite())?;
     let entry = |focal: f64| (focal, cost(focal).unwrap_or(f64::INFINITY));
     let mut step = std::f64::consts::SQRT_2.sqrt();
-    let steps = ((LONGEST / SHORTEST).ln() / step.ln()).round() as i32;
-    let mut tried: Vec<(f64, f64)> = (0..=steps)
-        .map(|i| entry(side * SHORTEST * step.powi(i)))
-        .collect();
+    let mut tried: Vec<(f64, f64)> = POWERS.map(|i| entry(side * step.powi(i))).collect();
     let least = |tried: &[(f64, f64)]| tried.iter().copied().min_by(|a, b| a.1.total_cmp(&b.1));
     for _ in 0..CLOSER {
         step = step.sqrt();

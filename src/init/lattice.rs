@@ -3,24 +3,21 @@
 use glam::DVec2;
 
 use super::block_search::SPACING;
-use super::sample::Sample;
+use super::matches::Match;
 use crate::grid::Grid;
-
-/// No match.
-const NONE: u32 = u32::MAX;
 
 /// Places of a frame, four pixels apart, and the matches there.
 pub struct Lattice {
-    index: Grid<u32>,
+    index: Grid<Option<u32>>,
 }
 
 impl Lattice {
     /// Of matches on a frame of `size`.
-    pub fn new(samples: &[Sample], size: [usize; 2]) -> Self {
+    pub fn new<'a>(matches: impl IntoIterator<Item = &'a Match>, size: [usize; 2]) -> Self {
         let [across, down] = size.map(|side| side.div_ceil(SPACING));
-        let mut index = Grid::new(across, down, NONE);
-        for (k, sample) in samples.iter().enumerate() {
-            index[place(sample)] = k as u32;
+        let mut index = Grid::new(across, down, None);
+        for (k, matched) in (0..).zip(matches) {
+            index[place(matched)] = Some(k);
         }
         Self { index }
     }
@@ -37,13 +34,12 @@ impl Lattice {
 
     /// The match at a place.
     pub fn at(&self, place: (usize, usize)) -> Option<usize> {
-        let k = self.index[place];
-        (k != NONE).then_some(k as usize)
+        self.index[place].map(|k| k as usize)
     }
 
-    /// The matches within `reach` places of `sample`, itself left out.
-    pub fn around(&self, sample: &Sample, reach: isize) -> impl Iterator<Item = usize> {
-        self.within(place(sample), reach)
+    /// The matches within `reach` places of one, itself left out.
+    pub fn around(&self, matched: &Match, reach: isize) -> impl Iterator<Item = usize> {
+        self.within(place(matched), reach)
             .filter_map(|(other, _)| self.at(other))
     }
 
@@ -64,8 +60,8 @@ impl Lattice {
 }
 
 /// The place of a match.
-pub fn place(sample: &Sample) -> (usize, usize) {
-    let [x, y] = sample.matched.at;
+pub fn place(matched: &Match) -> (usize, usize) {
+    let [x, y] = matched.at;
     (x as usize / SPACING, y as usize / SPACING)
 }
 

@@ -6,26 +6,17 @@
 //!
 //! Grey levels, frames less their local mean. At most four steps; it stops when a step is below 0.03 px.
 
+use super::matches::Match;
 use crate::grid::Grid;
 
 /// Half of the window, in pixels.
-const RADIUS: usize = 4;
+pub const RADIUS: usize = 4;
 /// A window whose weaker eigenvalue of H, a pixel, is below this has too little texture, (grey levels/px)².
 const LEAST_TEXTURE: f32 = 3.0;
 /// Residuals are cut here, in grey levels.
 const CLIP: f32 = 30.0;
 /// A result that is farther than this from the start, in pixels, has left its basin.
 const FARTHEST: f32 = 1.5;
-
-/// A displacement and how well it is determined.
-pub struct Tracked {
-    /// dx, dy in pixels.
-    pub displacement: [f32; 2],
-    /// xx, xy and yy of H, (grey levels/px)².
-    pub tensor: [f32; 3],
-    /// Root mean square of what is left, grey levels.
-    pub residual: f32,
-}
 
 /// Follows the window around the pixel `at` of `first` into `second` from the displacement `start`. `None` where the
 /// window does not lie within `first`, has too little texture or leads away.
@@ -34,7 +25,7 @@ pub fn track(
     second: &Grid<f32>,
     at: [i32; 2],
     start: [i32; 2],
-) -> Option<Tracked> {
+) -> Option<Match> {
     const SIDE: usize = 2 * RADIUS + 1;
     let (width, height) = (first.width(), first.height());
     let margin = RADIUS as i32 + 1;
@@ -91,8 +82,9 @@ pub fn track(
     let near = (0..2).all(|k| (d[k] - start[k]).abs() <= FARTHEST);
     let (x, y) = (at[0] as f32 + d[0], at[1] as f32 + d[1]);
     let on = x >= 0.0 && y >= 0.0 && x <= (width - 1) as f32 && y <= (height - 1) as f32;
-    (near && on).then_some(Tracked {
-        displacement: d,
+    (near && on).then_some(Match {
+        at: at.map(|c| c as f32),
+        to: [x, y],
         tensor: [xx, xy, yy],
         residual: (squares / count).sqrt(),
     })

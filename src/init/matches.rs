@@ -4,7 +4,7 @@
 //! from the first frame to the second and back; a match is kept where both ways agree to a pixel, and then brought to
 //! sub-pixel. Around a tenth of the matches are wrong all the same: whoever uses them has to be robust.
 
-use super::block_search::{Blocks, Displacements, SPACING, search};
+use super::block_search::{Blocks, SPACING, point, search};
 use super::box_mean::less_box_mean;
 use super::lucas_kanade::track;
 use crate::frames::halved;
@@ -36,14 +36,6 @@ impl Match {
     pub fn displacement(&self) -> [f32; 2] {
         [self.to[0] - self.at[0], self.to[1] - self.at[1]]
     }
-
-    /// Standard deviation in pixels of the displacement along its least certain direction.
-    pub fn uncertainty(&self) -> f32 {
-        let [xx, xy, yy] = self.tensor;
-        let half = 0.5 * (xx + yy);
-        let weaker = half - (half * half - (xx * yy - xy * xy)).max(0.0).sqrt();
-        self.residual / weaker.max(f32::MIN_POSITIVE).sqrt()
-    }
 }
 
 /// Matches between two frames of the same size, grey levels 0–255; at most one for every 4×4 pixels, displacements up
@@ -56,22 +48,11 @@ pub fn matches(first: &Grid<f32>, second: &Grid<f32>) -> Vec<Match> {
     let backward = search(&pyramids[1], &pyramids[0]);
     let fine = [first, second].map(|frame| less_box_mean(frame, FINE_MEAN_RADIUS));
     let mut kept = Vec::new();
-    for j in 0..forward.down {
-        for i in 0..forward.across {
-            let displacement = forward.found[j * forward.across + i];
-            let [x, y] = Displacements::point(i, j, width, height);
-            if !returns(&backward, [x, y], displacement) {
-                continue;
-            }
-            if let Some(tracked) = track(&fine[0], &fine[1], [x, y], displacement) {
-                let at = [x as f32, y as f32];
-                let [dx, dy] = tracked.displacement;
-                kept.push(Match {
-                    at,
-                    to: [at[0] + dx, at[1] + dy],
-                    tensor: tracked.tensor,
-                    residual: tracked.residual,
-                });
+    for j in 0..forward.height() {
+        for i in 0..forward.width() {
+            let (at, displacement) = (point(i, j, width, height), forward[(i, j)]);
+            if returns(&backward, at, displacement) {
+                kept.extend(track(&fine[0], &fine[1], at, displacement));
             }
         }
     }
@@ -94,15 +75,15 @@ fn pyramid(frame: &Grid<f32>) -> Vec<Blocks> {
 }
 
 /// Whether one of the four points around the target leads back to within a pixel.
-fn returns(backward: &Displacements, [x, y]: [i32; 2], [dx, dy]: [i32; 2]) -> bool {
+fn returns(backward: &Grid<[i32; 2]>, [x, y]: [i32; 2], [dx, dy]: [i32; 2]) -> bool {
     let spacing = SPACING as i32;
     let cell = |p: i32| (p - spacing / 2).div_euclid(spacing);
     let (i0, j0) = (cell(x + dx), cell(y + dy));
     let on = |k: i32, count: usize| k >= 0 && k < count as i32;
     [(0, 0), (1, 0), (0, 1), (1, 1)].iter().any(|&(oi, oj)| {
         let (i, j) = (i0 + oi, j0 + oj);
-        on(i, backward.across) && on(j, backward.down) && {
-            let [bx, by] = backward.found[j as usize * backward.across + i as usize];
+        on(i, backward.width()) && on(j, backward.height()) && {
+            let [bx, by] = backward[(i as usize, j as usize)];
             (bx + dx).abs() <= 1 && (by + dy).abs() <= 1
         }
     })
@@ -150,17 +131,6 @@ mod tests {
             (u - dx).hypot(v - dy) < 0.15
         });
         assert!(right.count() * 10 > found.len() * 9);
-    }
-
-    #[test]
-    fn uncertainty_is_the_residual_over_the_weak_gradient() {
-        let m = Match {
-            at: [0.0; 2],
-            to: [0.0; 2],
-            tensor: [400.0, 0.0, 100.0],
-            residual: 2.0,
-        };
-        assert!((m.uncertainty() - 0.2).abs() < 1e-6);
     }
 
     #[test]

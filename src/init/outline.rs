@@ -6,7 +6,7 @@
 //! frame, the polygon runs along the frame's border.
 
 use super::block_search::SPACING;
-use crate::curves::contours;
+use crate::curves::{contours, sides};
 use crate::grid::Grid;
 
 /// Polygons smaller than this share of the frame are dropped.
@@ -105,18 +105,13 @@ fn keep(line: &[[f64; 2]], off: f64, kept: &mut Vec<[f64; 2]>) {
 
 /// Above 0 when the corners run clockwise on the screen.
 fn area(corners: &[[f64; 2]]) -> f64 {
-    let each = sides(corners).map(|(a, b)| a[0] * b[1] - b[0] * a[1]);
+    let each = sides(corners).map(|[a, b]| a[0] * b[1] - b[0] * a[1]);
     0.5 * each.sum::<f64>()
 }
 
 fn compact(corners: &[[f64; 2]]) -> bool {
     let around: f64 = sides(corners)
-        .map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]))
+        .map(|[a, b]| (a[0] - b[0]).hypot(a[1] - b[1]))
         .sum();
     4.0 * std::f64::consts::PI * area(corners) >= COMPACT * around * around
-}
-
-fn sides(corners: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> {
-    let next = corners.iter().cycle().skip(1);
-    corners.iter().copied().zip(next.copied())
 }

@@ -15,6 +15,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 use glam::DVec2;
 
 use super::affine::{Affine, Moments};
+use super::groups::Groups;
 use super::lattice::{Lattice, place};
 use super::sample::Sample;
 
@@ -46,7 +47,7 @@ fn lines(samples: &[Sample], lattice: &Lattice) -> Vec<(usize, usize)> {
     let [across, down] = lattice.size();
     let mut pairs = Vec::with_capacity(2 * samples.len());
     for (k, sample) in samples.iter().enumerate() {
-        let (x, y) = place(sample);
+        let (x, y) = place(&sample.matched);
         let right = (1..=2).map(|step| (x + step, y)).filter(|p| p.0 < across);
         let below = (1..=2).map(|step| (x, y + step)).filter(|p| p.1 < down);
         pairs.extend(right.map(|p| lattice.at(p)).find_map(|o| o).map(|o| (k, o)));
@@ -84,7 +85,7 @@ impl Ord for Pair {
 
 /// The number of the patch of each match: that of one of its matches.
 fn merged(moments: &[Moments], lines: &[(usize, usize)]) -> Vec<usize> {
-    let mut root: Vec<usize> = (0..moments.len()).collect();
+    let mut groups = Groups::new(moments.len());
     let mut sums = moments.to_vec();
     let mut misfit: Vec<f64> = sums.iter().map(|m| m.fit().misfit).collect();
     let mut age = vec![0u32; sums.len()];
@@ -110,7 +111,7 @@ fn merged(moments: &[Moments], lines: &[(usize, usize)]) -> Vec<usize> {
         if pair.price > LENGTH {
             break;
         }
-        let [a, b] = pair.ends.map(|k| find(&mut root, k));
+        let [a, b] = pair.ends.map(|k| groups.find(k));
         if a == b {
             continue;
         }
@@ -130,7 +131,7 @@ fn merged(moments: &[Moments], lines: &[(usize, usize)]) -> Vec<usize> {
         } else {
             (b, a)
         };
-        root[gone] = kept;
+        groups.join(kept, gone);
         sums[kept] = sums[kept].with(&sums[gone]);
         misfit[kept] = sums[kept].fit().misfit;
         age[kept] += 1;
@@ -144,16 +145,7 @@ fn merged(moments: &[Moments], lines: &[(usize, usize)]) -> Vec<usize> {
             }
         }
     }
-    (0..moments.len()).map(|k| find(&mut root, k)).collect()
-}
-
-fn find(root: &mut [usize], k: usize) -> usize {
-    let mut end = k;
-    while root[end] != end {
-        root[end] = root[root[end]];
-        end = root[end];
-    }
-    end
+    (0..moments.len()).map(|k| groups.find(k)).collect()
 }
 
 /// Numbers from 0 for patches that are large enough.
@@ -176,7 +168,7 @@ fn dissolve(of: &mut [Option<usize>], count: usize, samples: &[Sample], lattice:
     let mut core = vec![0usize; count];
     for (k, sample) in samples.iter().enumerate() {
         let Some(p) = of[k] else { continue };
-        let around = || lattice.around(sample, 1);
+        let around = || lattice.around(&sample.matched, 1);
         let inside = around().count() >= FEWEST && around().all(|o| of[o] == Some(p));
         core[p] += usize::from(inside);
     }
@@ -205,7 +197,7 @@ fn straighten(
         let before = of.to_vec();
         for (k, sample) in samples.iter().enumerate() {
             let near: Vec<usize> = lattice
-                .around(sample, 1)
+                .around(&sample.matched, 1)
                 .filter_map(|o| before[o])
                 .collect();
             let cost = |p: usize| {
@@ -242,7 +234,7 @@ mod tests {
             Sample::new(matched, &camera)
         });
         let samples: Vec<Sample> = each.collect();
-        let lattice = Lattice::new(&samples, [160, 120]);
+        let lattice = Lattice::new(samples.iter().map(|s| &s.matched), [160, 120]);
         (samples, lattice)
     }
 

@@ -4,7 +4,6 @@
 //! below. Where it sees two pieces, they may be one body behind a gap in the texture; they are when one rigid motion
 //! explains both. Where it sees one body on three sides, it is part of it.
 
-use super::background::UNEXPLAINED;
 use super::epipolar::epipolar_motion;
 use super::lattice::{Lattice, place};
 use super::matches::Match;
@@ -79,7 +78,7 @@ fn labels(pieces: &[Vec<usize>], samples: &[Sample], lattice: &Lattice) -> Grid<
     let mut labels = Grid::from_fn(across, down, |x, y| lattice.at((x, y)).map(|_| 0));
     for (k, piece) in pieces.iter().enumerate() {
         for &sample in piece {
-            labels[place(&samples[sample])] = Some(k + 1);
+            labels[place(&samples[sample].matched)] = Some(k + 1);
         }
     }
     labels
@@ -107,15 +106,12 @@ fn for_gaps(
 }
 
 fn rigid(a: &[usize], b: &[usize], samples: &[Sample], camera: &Camera) -> bool {
-    let both = || a.iter().chain(b).map(|&k| &samples[k]);
-    let matches: Vec<Match> = both().map(|s| s.matched).collect();
+    let [a, b] = [a, b].map(|piece| piece.iter().map(|&k| samples[k]).collect::<Vec<_>>());
+    let matches: Vec<Match> = a.iter().chain(&b).map(|s| s.matched).collect();
     epipolar_motion(&matches, camera).is_some_and(|found| {
         let carrier = Carrier::new(&found.motion, camera);
-        [a, b].iter().all(|piece| {
-            let near = piece
-                .iter()
-                .filter(|&&k| carrier.misfit(&samples[k]) < UNEXPLAINED);
-            near.count() as f64 >= RIGID * piece.len() as f64
-        })
+        [a, b]
+            .iter()
+            .all(|piece| carrier.share_explained(piece) >= RIGID)
     })
 }

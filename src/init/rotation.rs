@@ -6,16 +6,17 @@
 //!
 //! p and q are the rays of a match in the first and the second frame, π the projection. Radians and pixels.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
 
 use super::epipolar::{Pair, median};
+use crate::camera::{omega, turn};
 use crate::linalg::solve;
 
 /// Scales of the weights in pixels, one an iteration.
 const SCALES: [f64; 6] = [8.0, 3.0, 1.0, 1.0, 0.7, 0.7];
 
-/// The rotation and the median of what it leaves, in pixels. `focal` in pixels.
-pub fn rotation_alone(pairs: &[Pair], focal: f64) -> (DMat3, f64) {
+/// ω and the median of what it leaves, in pixels. `focal` in pixels.
+pub fn rotation_alone(pairs: &[Pair], focal: f64) -> (DVec3, f64) {
     let mut rotation = DMat3::IDENTITY;
     for scale in SCALES {
         let mut normal = [[0.0; 3]; 3];
@@ -33,19 +34,14 @@ pub fn rotation_alone(pairs: &[Pair], focal: f64) -> (DMat3, f64) {
             }
         }
         if let Some(step) = solve(&normal, &right) {
-            rotation = turned(DVec3::from_array(step), rotation);
+            rotation = turn(DVec3::from_array(step)) * rotation;
         }
     }
     let left = pairs.iter().map(|pair| {
         let (_, _, ex, ey) = residual(pair, &rotation, focal);
         ex.hypot(ey)
     });
-    (rotation, median(left.collect()))
-}
-
-/// exp([step]×) · `rotation`.
-pub fn turned(step: DVec3, rotation: DMat3) -> DMat3 {
-    DMat3::from_quat(DQuat::from_scaled_axis(step)) * rotation
+    (omega(&rotation), median(left.collect()))
 }
 
 /// π(R p) and, in pixels, how far it is from q.

@@ -29,7 +29,7 @@ const PIXELS: usize = 352 * 288;
 /// m: what displacements are off beside noise, in pixels.
 const MODEL_ERROR: f64 = 0.12;
 /// χ² below which a motion explains a match.
-const EXPLAINED: f64 = 9.0;
+pub const EXPLAINED: f64 = 9.0;
 /// How far behind infinity, in pixels, a point may seem to be: R is never exact.
 const BEHIND: f64 = 0.3;
 
@@ -157,8 +157,13 @@ impl Carrier {
 
     /// Share of `samples` with χ² below [`EXPLAINED`].
     pub fn share_explained(&self, samples: &[Sample]) -> f64 {
-        let near = samples.iter().filter(|s| self.misfit(s) < EXPLAINED);
+        let near = samples.iter().filter(|s| self.explains(s));
         near.count() as f64 / samples.len().max(1) as f64
+    }
+
+    /// Whether χ² of a match is below [`EXPLAINED`].
+    pub fn explains(&self, sample: &Sample) -> bool {
+        self.misfit(sample) < EXPLAINED
     }
 
     /// χ² of a match.

@@ -10,6 +10,7 @@ use glam::DVec2;
 
 use super::affine::Moments;
 use super::epipolar::median;
+use super::groups::Groups;
 use super::lattice::{Lattice, centre};
 use super::patches::patches;
 use super::sample::Sample;
@@ -82,17 +83,23 @@ impl Segments {
 
 /// The segments of `samples`.
 pub fn segments(samples: &[Sample], lattice: &Lattice) -> Segments {
-    let (mut of, count) = patches(samples, lattice);
-    let patch = of.clone();
+    let (patch, count) = patches(samples, lattice);
     let border: Vec<bool> = (0..samples.len())
-        .map(|k| lattice.around(&samples[k], 1).any(|o| patch[o] != patch[k]))
+        .map(|k| {
+            lattice
+                .around(&samples[k].matched, 1)
+                .any(|o| patch[o] != patch[k])
+        })
         .collect();
     let middle = centre(lattice.size());
     // Contacts of patches, each with whether flow goes on there.
     let mut contacts = Vec::new();
     for k in 0..samples.len() {
         let Some(a) = patch[k] else { continue };
-        for other in lattice.around(&samples[k], 1).filter(|&other| other > k) {
+        for other in lattice
+            .around(&samples[k].matched, 1)
+            .filter(|&other| other > k)
+        {
             if let Some(b) = patch[other].filter(|&b| b != a) {
                 let at = 0.5 * (samples[k].at() + samples[other].at());
                 let [(one, known), (two, sure)] =
@@ -103,13 +110,24 @@ pub fn segments(samples: &[Sample], lattice: &Lattice) -> Segments {
             }
         }
     }
-    link_small(&mut of, count, &contacts);
+    let mut groups = Groups::new(count);
+    link_small(&mut groups, &patch, &contacts);
     for _ in 0..MERGES {
-        if !merge(&mut of, count, &patch, &contacts) {
+        if !merge(&mut groups, &patch, &contacts) {
             break;
         }
     }
-    by_size(of, count)
+    let sizes = groups.sizes(&patch);
+    let largest = ordered((0..count).collect(), |&s: &usize| -(sizes[s] as f64));
+    let mut rank = vec![0; count];
+    for (new, &old) in largest.iter().enumerate() {
+        rank[old] = new;
+    }
+    let of = patch.iter().map(|p| p.map(|p| rank[groups.find(p)]));
+    Segments {
+        of: of.collect(),
+        count: sizes.iter().filter(|&&size| size > 0).count(),
+    }
 }
 
 /// The flow at `at` from the matches around match k that belong to its patch, and its variance, px².
@@ -124,7 +142,7 @@ fn near(
     let own = |borders: bool| {
         let mut sum = Moments::default();
         let alike = |o: &usize| patch[*o] == patch[k] && (borders || !border[*o]);
-        let all = lattice.around(&samples[k], REACH).chain([k]);
+        let all = lattice.around(&samples[k].matched, REACH).chain([k]);
         for other in all.filter(alike) {
             sum = sum.with(&Moments::of(&samples[other], middle));
         }
@@ -141,100 +159,59 @@ fn near(
     )
 }
 
-/// Joins each small patch to the one neighbour that continues it best: those along an outline continue both sides.
-fn link_small(of: &mut [Option<usize>], count: usize, contacts: &[(usize, usize, bool)]) {
-    let mut sizes = vec![0usize; count];
-    of.iter().flatten().for_each(|&s| sizes[s] += 1);
-    let mut lines = BTreeMap::<(usize, usize), (u32, u32)>::new();
+/// Two patches that touch at a match of each, and whether flow goes on there.
+type Contact = (usize, usize, bool);
+
+/// For each two groups that touch, the number of their contacts and of those where flow goes on.
+fn lines(groups: &mut Groups, contacts: &[Contact]) -> BTreeMap<(usize, usize), [u32; 2]> {
+    let mut lines = BTreeMap::<_, [u32; 2]>::new();
     for &(a, b, same) in contacts {
-        for pair in [(a, b), (b, a)] {
-            let line = lines.entry(pair).or_default();
-            line.0 += 1;
-            line.1 += u32::from(same);
+        let (a, b) = (groups.find(a), groups.find(b));
+        if a != b {
+            let line = lines.entry((a.min(b), a.max(b))).or_default();
+            line[0] += 1;
+            line[1] += u32::from(same);
         }
     }
-    let mut best = vec![(SHARE, 0, None); count];
-    for (&(a, b), &(all, same)) in &lines {
+    lines
+}
+
+/// Joins each small patch to the one neighbour that continues it best: those along an outline continue both sides.
+fn link_small(groups: &mut Groups, patch: &[Option<usize>], contacts: &[Contact]) {
+    let sizes = groups.sizes(patch);
+    let mut best = vec![(SHARE, 0, None); sizes.len()];
+    for ((a, b), [all, same]) in lines(groups, contacts) {
         let share = f64::from(same) / f64::from(all);
-        if sizes[a] < SMALL && (share, same) > (best[a].0, best[a].1) {
-            best[a] = (share, same, Some(b));
+        for (a, b) in [(a, b), (b, a)] {
+            if sizes[a] < SMALL && (share, same) > (best[a].0, best[a].1) {
+                best[a] = (share, same, Some(b));
+            }
         }
     }
-    let mut root: Vec<usize> = (0..count).collect();
     for (a, (_, _, b)) in best.into_iter().enumerate() {
         if let Some(b) = b {
-            let (a, b) = (find(&root, a), find(&root, b));
-            root[a.max(b)] = a.min(b);
+            join(groups, a, b);
         }
-    }
-    for segment in of.iter_mut().flatten() {
-        *segment = find(&root, *segment);
     }
 }
 
 /// Joins what is continuous; whether anything was.
-fn merge(
-    of: &mut [Option<usize>],
-    count: usize,
-    patch: &[Option<usize>],
-    contacts: &[(usize, usize, bool)],
-) -> bool {
-    // Where the segment of each patch is.
-    let mut now: Vec<usize> = (0..count).collect();
-    for (p, s) in patch.iter().zip(of.iter()) {
-        if let (Some(p), Some(s)) = (*p, *s) {
-            now[p] = s;
-        }
-    }
-    let mut sizes = vec![0usize; count];
-    of.iter().flatten().for_each(|&s| sizes[s] += 1);
-    let mut lines = BTreeMap::<(usize, usize), (u32, u32)>::new();
-    for &(a, b, same) in contacts {
-        let (a, b) = (now[a], now[b]);
-        if a != b {
-            let line = lines.entry((a.min(b), a.max(b))).or_default();
-            line.0 += 1;
-            line.1 += u32::from(same);
-        }
-    }
-    let mut root: Vec<usize> = (0..count).collect();
+fn merge(groups: &mut Groups, patch: &[Option<usize>], contacts: &[Contact]) -> bool {
+    let sizes = groups.sizes(patch);
     let mut any = false;
-    for (&(a, b), &(all, same)) in &lines {
-        let least = 0.5 * (sizes[a].min(sizes[b]) as f64).sqrt();
-        let large = sizes[a].min(sizes[b]) >= SMALL;
-        if large && f64::from(same) > (SHARE * f64::from(all)).max(least) {
-            let (a, b) = (find(&root, a), find(&root, b));
-            if a != b {
-                root[a.max(b)] = a.min(b);
-                any = true;
-            }
+    for ((a, b), [all, same]) in lines(groups, contacts) {
+        let smaller = sizes[a].min(sizes[b]);
+        let least = 0.5 * (smaller as f64).sqrt();
+        if smaller >= SMALL && f64::from(same) > (SHARE * f64::from(all)).max(least) {
+            any |= join(groups, a, b);
         }
-    }
-    for segment in of.iter_mut().flatten() {
-        *segment = find(&root, *segment);
     }
     any
 }
 
-fn find(root: &[usize], mut k: usize) -> usize {
-    while root[k] != k {
-        k = root[k];
-    }
-    k
-}
-
-fn by_size(mut of: Vec<Option<usize>>, count: usize) -> Segments {
-    let mut sizes = vec![0usize; count];
-    of.iter().flatten().for_each(|&s| sizes[s] += 1);
-    let mut order: Vec<usize> = (0..count).filter(|&s| sizes[s] > 0).collect();
-    order = ordered(order, |&s| -(sizes[s] as f64));
-    let mut rank = vec![0; count];
-    for (new, &old) in order.iter().enumerate() {
-        rank[old] = new;
-    }
-    of.iter_mut().flatten().for_each(|s| *s = rank[*s]);
-    Segments {
-        of,
-        count: order.len(),
-    }
+/// Joins two groups; whether they were two.
+fn join(groups: &mut Groups, a: usize, b: usize) -> bool {
+    let (a, b) = (groups.find(a), groups.find(b));
+    groups.join(a.min(b), a.max(b));
+    a != b
 }

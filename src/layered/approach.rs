@@ -12,7 +12,7 @@ use crate::frames::FramePair;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 use crate::options::Options;
-use crate::solver::{Approach, Expected, Next, RegionState, Stage, Weights};
+use crate::solver::{Approach, Expected, Next, RegionReport, Stage, Weights};
 
 impl Layered {
     /// Whether motion models are compared once more in the pass of this scale that follows so many: the second on the second
@@ -89,7 +89,7 @@ impl Approach for Layered {
         if options.smoothing != self.smoothing {
             self.smoothing = options.smoothing;
             let camera = self.scales[0].camera;
-            self.scales = pyramid(&self.pair, camera, options.smoothing, self.lighting);
+            self.scales = pyramid(&self.pair, camera, options);
         }
         self.find_windows();
         self.before = None;
@@ -121,17 +121,15 @@ impl Approach for Layered {
         self.smooth_level_sets()
     }
 
-    fn regions(&self) -> Vec<RegionState> {
-        let hides: Vec<bool> = self.regions.iter().map(|r| r.hides).collect();
-        let state = |(k, region): (usize, &Region)| RegionState {
-            motion: region.state.motion(),
-            model: region.model,
+    fn regions(&self) -> Vec<RegionReport> {
+        let report = |(k, region): (usize, &Region)| RegionReport {
             ambiguous: region.ambiguous,
             rigid: region.rigid,
             part_of: region.part_of,
-            in_front_of: if hides[k] { vec![0] } else { Vec::new() },
+            in_front_of: if region.hides { vec![0] } else { Vec::new() },
+            ..RegionReport::new(k, &region.state.motion(), region.state.model)
         };
-        self.regions.iter().enumerate().map(state).collect()
+        self.regions.iter().enumerate().map(report).collect()
     }
 
     fn weights(&self) -> Weights {

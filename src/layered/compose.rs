@@ -1,11 +1,11 @@
 //! One picture out of layers: at each pixel of the frame the depth, motion and confidence of the region that owns it,
 //! and what the second frame hides; at any scale.
 
-use super::estimate::State;
 use super::label::Occlusion;
 use super::solver::{Layered, Phase};
 use crate::camera::RigidMotion;
 use crate::confidence::confidence;
+use crate::curves::smoothed;
 use crate::grid::Grid;
 use crate::interpretation::{Flow, Interpretation, NEAREST_FARTHEST};
 use crate::options::Options;
@@ -28,8 +28,8 @@ impl Layered {
         let planar = matches!(self.phase, Phase::Planar(_));
         let finest = &self.scales[0];
         let occlusion = (options.occlusion && !planar && self.regions.len() > 1).then(|| {
-            let states: Vec<&State> = self.regions.iter().map(|r| &r.state).collect();
-            Occlusion::of(finest, 0, &states, &labels)
+            let states = self.regions.iter().map(|r| &r.state);
+            Occlusion::of(finest, 0, states, &labels)
         });
         let mut flow = Flow {
             u: Grid::new(width, height, 0.0),
@@ -61,7 +61,7 @@ impl Layered {
                 let hidden = k == 0 && occlusion.as_ref().is_some_and(|o| o.at(to_x, to_y) != 0);
                 let seen = finest.contains(to_x, to_y) && !hidden;
                 occluded[at] = u8::from(!seen);
-                if seen && region.model.translates() {
+                if seen && region.state.model.translates() {
                     let t = region.state.translation.as_vec3().to_array();
                     let (px, py) = ((to_x - camera.cx as f32) / f, (to_y - camera.cy as f32) / f);
                     let [gx, gy] = [&finest.gradient[0], &finest.gradient[1]].map(|g| g[at]);
@@ -74,7 +74,11 @@ impl Layered {
         let mut confidence = confidence(&squares, f64::from(self.sigma));
         for (i, c) in confidence.data_mut().iter_mut().enumerate() {
             let region = &self.regions[usize::from(labels.data()[i])];
-            if occluded.data()[i] != 0 || !region.model.translates() || !region.rigid || planar {
+            if occluded.data()[i] != 0
+                || !region.state.model.translates()
+                || !region.rigid
+                || planar
+            {
                 *c = 0.0;
             } else if region.ambiguous {
                 *c = c.min(AMBIGUOUS);
@@ -108,16 +112,10 @@ impl Layered {
 
     /// φk at the frame's size: how much more of its surroundings belong to k than to any other region, in pixels.
     pub(super) fn smooth_level_sets(&self) -> Vec<Grid<f32>> {
-        let (width, height) = (self.pair.width(), self.pair.height());
         let labels = self.frame_labels();
         let side = (1 << self.level) as f32;
-        (1..self.regions.len())
-            .map(|k| {
-                let own = labels.map(|l| if usize::from(l) == k { 1.0f32 } else { -1.0 });
-                let smooth = crate::frames::blur(&own, f64::from(0.7 * side));
-                Grid::from_fn(width, height, |x, y| side * smooth[(x, y)])
-            })
-            .collect()
+        let level_set = |k| smoothed(&labels.map(|l| usize::from(l) == k), side);
+        (1..self.regions.len()).map(level_set).collect()
     }
 
     /// How good labels and flow are, judged by the scale at work and, in the end, by matches.

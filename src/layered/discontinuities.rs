@@ -15,13 +15,12 @@ use super::refine::{Refined, match_range, refine, sweep};
 use super::scale::Scale;
 use super::solver::Layered;
 use super::stages::STIFFNESS;
-use crate::camera::RigidMotion;
+use super::view::View;
 use crate::frames::blur;
 use crate::grid::Grid;
 use crate::init::{Match, epipolar_motion, matches};
 use crate::motion_model::MotionModel;
 use crate::options::Options;
-use crate::window::Window;
 
 /// Share of a region's pixels that a surface may leave unexplained, times the number of regions, and the share of the
 /// largest cost from which on a pixel is.
@@ -42,9 +41,6 @@ const STEPS: usize = 4;
 impl Layered {
     /// Looks for regions that want depth pixel by pixel; whether there are any.
     pub(super) fn find_unexplained(&mut self) -> bool {
-        if self.regions.len() == 1 {
-            self.find_costs();
-        }
         self.unexplained = (0..self.regions.len())
             .filter(|&k| self.is_unexplained(k))
             .collect();
@@ -53,12 +49,9 @@ impl Layered {
 
     fn is_unexplained(&self, k: usize) -> bool {
         let most = UNEXPLAINED[1] as f32 * saturation(self.label_sigma);
-        let owned = self.labels.data().iter().zip(self.memory.costs[k].data());
-        let (mut all, mut bad) = (0usize, 0usize);
-        for (_, &cost) in owned.filter(|(l, _)| usize::from(**l) == k) {
-            all += 1;
-            bad += usize::from(cost > most);
-        }
+        let all = self.owned(k).count();
+        let costs = &self.memory.costs[k];
+        let bad = self.owned(k).filter(|&at| costs[at] > most).count();
         // Every outline brings hidden and shadowed pixels that no surface explains: of several regions only one that costs
         // more than noise does may want more than a surface.
         let usual = UNEXPLAINED[0] * self.regions.len() as f64;
@@ -99,9 +92,10 @@ impl Layered {
                 continue;
             };
             let swept = sweep(frames, &camera, &found.motion, &support, range);
-            let refined = refine(&scale, &swept.motion, &support, swept.rho);
+            let refined = refine(&scale, &found.motion, &support, swept);
             let before = self.surface_cost(k);
-            let after = self.mean_cost(k, &refined.motion, |x, y| refined.rho[(x, y)]);
+            let view = View::of(&camera, &refined.motion);
+            let after = self.mean_cost(k, &view, |x, y| refined.rho[(x, y)]);
             if after < GAIN[0] * before && self.adopt(k, refined, [before, after], options) {
                 self.adopted += 1;
             }
@@ -131,19 +125,20 @@ impl Layered {
     ) -> bool {
         let spacing = self.spacing();
         let prior = self.prior(STIFFNESS[0], self.sigma, options);
+        let view = View::of(&self.scales[0].camera, &refined.motion);
         let region = &mut self.regions[k];
-        let own = (region.state.clone(), region.model, region.ambiguous);
-        (region.model, region.ambiguous) = (MotionModel::Full, false);
+        let own = (region.state.clone(), region.ambiguous);
         let pixels = State {
+            model: MotionModel::Full,
             translation: refined.motion.translation,
             rotation: refined.motion.matrix(),
             surface: Surface::through(spacing, &refined.rho),
         };
-        region.state = pixels.clone();
+        (region.state, region.ambiguous) = (pixels.clone(), false);
         region.fresh = false;
         self.improve_region(k, prior, STEPS, true);
         let smooth = self.surface_cost(k);
-        let apart = self.share_apart(k, &pixels, &refined.rho);
+        let apart = self.share_apart(k, &view, &refined.rho);
         // If the surface is no better than the one before, the motion was not what was wrong: then depth has to show steps,
         // where outlines do not show them.
         let usual = if self.regions.len() > 1 { STEPPED } else { 0.0 };
@@ -159,71 +154,47 @@ impl Layered {
             region.state = pixels;
             region.dense = Some(refined.rho);
         } else if !better {
-            (region.state, region.model, region.ambiguous) = own;
+            (region.state, region.ambiguous) = own;
         }
         region.fresh = false;
         adopted
     }
 
-    /// Share of the pixels of region k that its surface moves by more than a pixel from where `other` moves them with `rho`.
-    fn share_apart(&self, k: usize, other: &State, rho: &Grid<f32>) -> f64 {
-        let scale = &self.scales[0];
-        let own = &self.regions[k].state;
-        let views = [own, other].map(|state| state.view(&scale.camera));
+    /// Share of the pixels of region k that its surface moves by more than a pixel from where `view` moves them with `rho`.
+    fn share_apart(&self, k: usize, view: &View, rho: &Grid<f32>) -> f64 {
+        let state = &self.regions[k].state;
+        let own = state.view(&self.scales[0].camera);
         let (mut all, mut apart) = (0usize, 0usize);
-        for y in 0..scale.height {
-            for x in 0..scale.width {
-                if usize::from(self.labels[(x, y)]) != k {
-                    continue;
-                }
-                let [a, b] = views[0].target(x, y, own.surface.at(x as f32, y as f32));
-                let [c, d] = views[1].target(x, y, rho[(x, y)]);
-                all += 1;
-                apart += usize::from((a - c).hypot(b - d) > 1.0);
-            }
+        for (x, y) in self.owned(k) {
+            let [a, b] = own.target(x, y, state.surface.at(x as f32, y as f32));
+            let [c, d] = view.target(x, y, rho[(x, y)]);
+            all += 1;
+            apart += usize::from((a - c).hypot(b - d) > 1.0);
         }
         apart as f64 / all.max(1) as f64
     }
 
     fn surface_cost(&self, k: usize) -> f64 {
         let state = &self.regions[k].state;
-        let surface = &state.surface;
-        self.mean_cost(k, &state.motion(), |x, y| surface.at(x as f32, y as f32))
+        let rho = |x: usize, y: usize| state.surface.at(x as f32, y as f32);
+        self.mean_cost(k, &state.view(&self.scales[0].camera), rho)
     }
 
     /// Mean of c(e) over the pixels of region k, grey levels²; what leaves the frame counts as unexplained.
-    fn mean_cost(&self, k: usize, motion: &RigidMotion, rho: impl Fn(usize, usize) -> f32) -> f64 {
+    fn mean_cost(&self, k: usize, view: &View, rho: impl Fn(usize, usize) -> f32) -> f64 {
         let scale = &self.scales[0];
-        let mut state = self.regions[k].state.clone();
-        state.translation = motion.translation;
-        state.rotation = motion.matrix();
-        let view = state.view(&scale.camera);
-        let Some(Window {
-            left,
-            top,
-            width,
-            height,
-        }) = self.regions[k].window
-        else {
-            return f64::INFINITY;
-        };
         let most = most_cost(self.sigma);
         let (mut sum, mut count) = (0.0, 0usize);
-        for y in top..top + height {
-            for x in left..left + width {
-                if usize::from(self.labels[(x, y)]) != k {
-                    continue;
-                }
-                let [to_x, to_y] = view.target(x, y, rho(x, y));
-                let cost = if scale.contains(to_x, to_y) {
-                    let e = scale.second.at(to_x, to_y) - scale.first[(x, y)];
-                    e * e * most / (most + e * e)
-                } else {
-                    most
-                };
-                sum += f64::from(cost);
-                count += 1;
-            }
+        for (x, y) in self.owned(k) {
+            let [to_x, to_y] = view.target(x, y, rho(x, y));
+            let cost = if scale.contains(to_x, to_y) {
+                let e = scale.second.at(to_x, to_y) - scale.first[(x, y)];
+                e * e * most / (most + e * e)
+            } else {
+                most
+            };
+            sum += f64::from(cost);
+            count += 1;
         }
         sum / count.max(1) as f64
     }

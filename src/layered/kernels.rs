@@ -7,16 +7,16 @@ use std::hint::black_box;
 
 use glam::DVec3;
 
-use super::estimate::{NormalEquations, Prior, State, Support, Surface, turn};
+use super::estimate::{NormalEquations, Prior, Problem, State, Support, Surface};
 use super::label::{Memory, Outlines, Reach, rigid_residual};
-use super::models::Problem;
 use super::refine::{aggregate, census, volume};
 use super::region::Region;
 use super::scale::Scale;
-use crate::camera::Camera;
+use crate::camera::{Camera, turn};
 use crate::frames::{LANES, blur};
 use crate::grid::Grid;
 use crate::linalg::Banded;
+use crate::motion_model::MotionModel;
 use crate::options::Diffusion;
 use crate::window::Window;
 
@@ -49,6 +49,7 @@ pub(crate) fn enter(
     }
     let (nodes, bandwidth) = (surface.rho.len(), surface.bandwidth());
     let state = State {
+        model: MotionModel::Full,
         translation: DVec3::new(0.01, -0.005, 0.01),
         rotation: turn(DVec3::new(0.001, 0.002, -0.002)),
         surface,
@@ -86,8 +87,8 @@ pub(crate) fn enter(
                     mu: 1e5,
                     diffusion: Diffusion::Anisotropic,
                     epsilon: 2e-3,
+                    sigma: 2.0,
                 },
-                sigma: 2.0,
             };
             equations.gather(&problem, &known);
             black_box(equations.cost);

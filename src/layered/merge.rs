@@ -18,29 +18,26 @@
 
 use glam::DVec3;
 
-use super::estimate::{Free, NormalEquations, Outcome, State, Support, turn};
-use super::models::{Problem, free};
-use super::rigidity::{FEWEST, Owned};
+use super::by_matches::FEWEST;
+use super::estimate::{Problem, State, Support};
 use super::solver::Layered;
 use super::stages::STIFFNESS;
+use super::view::View;
 use crate::camera::{Camera, RigidMotion};
 use crate::grid::Grid;
 use crate::init::{Carrier, Sample, epipolar_motion};
 use crate::motion_model::MotionModel;
 use crate::options::Options;
-use crate::window::Window;
 
 /// What one motion and surface may cost more than two, in variances of the residual: what two are charged more.
 const ALIKE: f64 = 150.0;
 /// What a region may cost more as scenery: in variances, and, if that is more, as a share of E, since what no motion
 /// explains grows with the frame.
 const SCENERY: (f64, f64) = (300.0, 0.03);
-/// Gauss–Newton steps of a union at first, and then, if it is not far off.
+/// Gauss–Newton steps of a union at first, and then, if it is not far off; and of a surface under a given motion.
 const STEPS: [usize; 2] = [3, 6];
 /// How many times too much is far off.
 const FAR: f64 = 6.0;
-/// Steps of a surface under a given motion.
-const DEPTH_STEPS: usize = 6;
 /// How many times nearer than the background, or farther, a part of the scene may be on the mean.
 const NEARER: f64 = 4.5;
 /// Share of a region's matches that the motion of a scene explains, or it is none.
@@ -70,14 +67,14 @@ impl Layered {
     pub(super) fn note_parts(&mut self, options: &Options) {
         self.regions.iter_mut().for_each(|r| r.part_of = None);
         let count = self.regions.len();
-        let owned = self.owned_matches();
+        let (samples, camera) = self.owned_matches();
         // Most bodies move in a way that the others' motions do not explain.
-        let (unlike, camera) = (Some(f64::INFINITY), &owned.camera);
+        let unlike = Some(f64::INFINITY);
         let mut lost = vec![None; count * count];
         for (a, b) in (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b))) {
             let explains = |a: usize, b: usize| {
                 let motion = self.regions[a].state.motion();
-                may_explain(&motion, &owned.samples[b], camera)
+                may_explain(&motion, &samples[b], &camera)
             };
             if !explains(a, b) && (a == 0 || !explains(b, a)) {
                 lost[a * count + b] = unlike;
@@ -86,7 +83,7 @@ impl Layered {
         if let Some((whole, part)) = self.most_alike(&mut lost, options) {
             self.regions[part].part_of = Some(whole);
         }
-        if self.regions[0].model.translates() {
+        if self.regions[0].state.model.translates() {
             for k in self.scenery(options) {
                 self.regions[k].part_of.get_or_insert(0);
             }
@@ -98,9 +95,11 @@ impl Layered {
         if self.regions.len() < 2 {
             return Vec::new();
         }
-        let owned = self.owned_matches();
+        let (samples, camera) = self.owned_matches();
         (1..self.regions.len())
-            .filter(|&k| self.regions[k].window.is_some() && self.is_scenery(k, &owned, options))
+            .filter(|&k| {
+                self.regions[k].window.is_some() && self.is_scenery(k, &samples, &camera, options)
+            })
             .collect()
     }
 
@@ -140,14 +139,11 @@ impl Layered {
             if from > 0 && a == 0 {
                 continue;
             }
-            let (model, mut state) = (self.regions[from].model, self.regions[from].state.clone());
+            let mut state = self.regions[from].state.clone();
+            let free = state.model;
             for steps in STEPS {
-                let steps = match model {
-                    MotionModel::Still => 0,
-                    _ => steps,
-                };
-                let found = self.tried(&joined, a, state, free(model), steps, options);
-                least = least.min((found.1.energy - apart) / variance);
+                let found = self.tried(&joined, a, state, free, steps, options);
+                least = least.min((found.1 - apart) / variance);
                 // What is far off after a few steps stays so.
                 if !(ALIKE..=FAR * ALIKE).contains(&least) {
                     break;
@@ -162,9 +158,15 @@ impl Layered {
     }
 
     /// Whether region k and the background are one scene.
-    fn is_scenery(&mut self, k: usize, owned: &Owned, options: &Options) -> bool {
-        let (camera, own) = (&owned.camera, &owned.samples[k]);
-        let both = owned.samples[0].iter().chain(own).map(|s| s.matched);
+    fn is_scenery(
+        &mut self,
+        k: usize,
+        samples: &[Vec<Sample>],
+        camera: &Camera,
+        options: &Options,
+    ) -> bool {
+        let own = &samples[k];
+        let both = samples[0].iter().chain(own).map(|s| s.matched);
         let found = epipolar_motion(&both.collect::<Vec<_>>(), camera)
             .filter(|f| f.model == MotionModel::Full)
             .map(|f| f.motion);
@@ -185,15 +187,14 @@ impl Layered {
             }
             let found = [k, 0].map(|k| {
                 let state = self.under(&motion, k);
-                self.tried(&labels, k, state, Free::Depth, DEPTH_STEPS, options)
+                self.tried(&labels, k, state, MotionModel::Still, STEPS[1], options)
             });
             // Mean ρ is 1 in each, so that the lengths of T say how near one is beside the other.
             let [near, far] = [0, 1].map(|n| found[n].0.translation.dot(motion.translation));
             if !(near > far / NEARER && near < far * NEARER) {
                 continue;
             }
-            let parts = found.map(|f| f.1.energy);
-            least = least.min(parts[0] + parts[1]);
+            least = least.min(found[0].1 + found[1].1);
             if least - apart < limit {
                 break;
             }
@@ -205,40 +206,25 @@ impl Layered {
     fn under(&self, motion: &RigidMotion, k: usize) -> State {
         let region = &self.regions[k];
         let direction = motion.translation.normalize_or_zero();
-        let mut state = region.state.clone();
-        state.rotation = turn(motion.rotation);
-        let Some(window) = region.window else {
-            return state;
-        };
-        let scale_camera = self.scales[self.level].camera;
-        let own = region.state.view(&scale_camera);
-        let at = |length: f64| {
-            let mut state = state.clone();
-            state.translation = direction * length;
-            state.view(&scale_camera)
-        };
-        let (rest, unit) = (at(0.0), at(0.01));
+        let camera = &self.scales[self.level].camera;
+        let own = region.state.view(camera);
+        let [rest, unit] = [0.0, 0.01].map(|t| View::new(camera, motion.matrix(), direction * t));
         let (mut along, mut square) = (0.0f64, 0.0f64);
-        let rows = window.top..window.top + window.height;
-        for (x, y) in
-            rows.flat_map(|y| (window.left..window.left + window.width).map(move |x| (x, y)))
-        {
-            if usize::from(self.labels[(x, y)]) != k {
-                continue;
-            }
+        for (x, y) in self.owned(k) {
             let place = |v: usize| ((v << self.level) + (1 << self.level) / 2) as f32;
             let rho = region.state.surface.at(place(x), place(y));
-            let ([u, v], [a, b], [p, q]) = (
-                own.target(x, y, rho),
-                rest.target(x, y, 1.0),
-                unit.target(x, y, 1.0),
-            );
+            let [u, v] = own.target(x, y, rho);
+            let ([a, b], [p, q]) = (rest.target(x, y, 1.0), unit.target(x, y, 1.0));
             let (dx, dy) = (f64::from(p - a), f64::from(q - b));
             along += f64::from(u - a) * dx + f64::from(v - b) * dy;
             square += dx * dx + dy * dy;
         }
         let length = 0.01 * along / square.max(1e-12);
-        state.translation = direction * length;
+        let mut state = State {
+            translation: direction * length,
+            rotation: motion.matrix(),
+            ..region.state.clone()
+        };
         // The background's own relief is mostly right; that of a small region may be its mirror image.
         if k > 0 {
             state.surface.rho.iter_mut().for_each(|rho| *rho = 1.0);
@@ -249,50 +235,46 @@ impl Layered {
     /// E of a region as it is.
     fn cost_of(&mut self, k: usize, options: &Options) -> f64 {
         let (labels, state) = (self.labels.clone(), self.regions[k].state.clone());
-        self.tried(&labels, k, state, Free::Depth, 0, options)
+        self.tried(&labels, k, state, MotionModel::Still, 0, options)
             .1
-            .energy
     }
 
+    /// Region k, of other labels, after so many steps; and its E.
     fn tried(
         &mut self,
         labels: &Grid<u8>,
         k: usize,
         mut state: State,
-        free: Free,
+        free: MotionModel,
         steps: usize,
         options: &Options,
-    ) -> (State, Outcome) {
-        let Some(window) = around(labels, k) else {
-            return (state, Outcome::default());
+    ) -> (State, f64) {
+        let Some(support) = Support::around(labels, k) else {
+            return (state, 0.0);
         };
-        let reach = self.reach_of(k, window);
+        let reach = self.reach_of(k, support.window);
         state.surface = state.surface.over(self.spacing(), &reach);
         let problem = Problem {
             scale: &self.scales[self.level],
             level: self.level,
-            support: Support::of(labels, k, window),
+            support,
             prior: self.prior(STIFFNESS[0], self.sigma, options),
-            sigma: self.sigma,
         };
-        let mut equations = NormalEquations::default();
-        let outcome =
-            (self.estimator).improve(&problem, &mut state, free, steps, &mut equations, false);
-        (state, outcome)
+        let region = &mut self.regions[k];
+        region.fresh = false;
+        let estimator = &mut region.estimator;
+        let energy = estimator.improve(&problem, &mut state, free, steps, false);
+        (state, energy)
     }
 
     /// Gives what region `from` owns to region `into`.
     fn merge(&mut self, into: usize, from: usize, options: &Options) {
         let labels = joined(&self.labels, into, from);
-        let (model, state) = (self.regions[into].model, self.regions[into].state.clone());
-        let steps = match model {
-            MotionModel::Still => 0,
-            _ => STEPS[1],
-        };
-        let (state, outcome) = self.tried(&labels, into, state, free(model), steps, options);
+        let state = self.regions[into].state.clone();
+        let free = state.model;
+        let (state, _) = self.tried(&labels, into, state, free, STEPS[1], options);
         self.labels = labels;
         self.regions[into].state = state;
-        self.regions[into].outcome = outcome;
         self.find_windows();
     }
 }
@@ -310,13 +292,6 @@ fn joined(labels: &Grid<u8>, into: usize, from: usize) -> Grid<u8> {
         } else {
             l
         }
-    })
-}
-
-fn around(labels: &Grid<u8>, k: usize) -> Option<Window> {
-    let data = labels.data();
-    Window::around(labels.width(), labels.height(), |i| {
-        usize::from(data[i]) == k
     })
 }
 

@@ -15,6 +15,7 @@
 //! (`label/`: who owns which pixel), and on the finest scale *refine* (`refine/`: depth pixel by pixel where it has steps).
 
 mod approach;
+mod by_matches;
 mod compose;
 mod discontinuities;
 mod estimate;
@@ -26,7 +27,6 @@ mod models;
 mod packed;
 mod refine;
 mod region;
-mod rigidity;
 mod scale;
 mod solver;
 mod stages;

@@ -12,11 +12,8 @@
 
 use glam::{DMat3, DVec3};
 
-use super::estimate::{
-    Blocks, Estimator, Free, NormalEquations, OTHER_DIRECTION, Outcome, Prior, State, Support,
-    Surface, turn,
-};
-use super::scale::Scale;
+use super::estimate::{Blocks, Estimator, OTHER_DIRECTION, Problem, State, Surface};
+use crate::camera::turn;
 use crate::motion_model::MotionModel;
 use crate::ordered::ordered;
 
@@ -35,29 +32,10 @@ const SYSTEMATIC: f64 = 0.04;
 
 /// An explanation of a region.
 pub(super) struct Candidate {
-    pub model: MotionModel,
     pub state: State,
-    pub outcome: Outcome,
+    /// E, grey levels².
+    pub energy: f64,
     pub score: f64,
-}
-
-/// A region's pixels at one scale, and what is charged.
-pub(super) struct Problem<'a> {
-    pub scale: &'a Scale,
-    pub level: usize,
-    pub support: Support<'a>,
-    pub prior: Prior,
-    pub sigma: f32,
-}
-
-/// What may change under a model.
-pub(super) fn free(model: MotionModel) -> Free {
-    match model {
-        MotionModel::Still => Free::Depth,
-        MotionModel::Rotation => Free::Rotation,
-        MotionModel::Translation => Free::Translation,
-        MotionModel::Full => Free::Full,
-    }
 }
 
 /// What a model is charged.
@@ -71,130 +49,106 @@ fn price(model: MotionModel) -> f64 {
 }
 
 impl Problem<'_> {
-    fn try_out(
-        &self,
-        model: MotionModel,
-        mut state: State,
-        steps: usize,
-        (estimator, equations): (&mut Estimator, &mut NormalEquations),
-    ) -> Candidate {
-        let steps = if model == MotionModel::Still {
-            0
-        } else {
-            steps
-        };
-        let outcome = estimator.improve(self, &mut state, free(model), steps, equations, false);
+    fn try_out(&self, mut state: State, steps: usize, estimator: &mut Estimator) -> Candidate {
+        let model = state.model;
+        let energy = estimator.improve(self, &mut state, model, steps, false);
         let relief = if model.translates() {
-            equations.relief(&state.surface)
+            estimator.equations.relief(&state.surface)
         } else {
             0.0
         };
-        let variance = f64::from(self.sigma * self.sigma);
         Candidate {
-            score: outcome.energy / variance + RELIEF * relief,
-            model,
+            score: energy / self.variance() + RELIEF * relief,
             state,
-            outcome,
+            energy,
         }
     }
 
-    /// All explanations from scratch, the best first, those that are far off left out. `flat` is the surface to start from;
-    /// only full motions are tried unless the model is to be selected.
+    fn variance(&self) -> f64 {
+        f64::from(self.prior.sigma * self.prior.sigma)
+    }
+
+    /// All explanations from scratch, the best first, those that are far off left out, and whether another fits as well as
+    /// the best. `flat` is the surface to start from; only full motions are tried unless the model is to be selected.
     pub fn search(
         &self,
         blocks: &Blocks,
-        flat: &Surface,
+        flat: Surface,
         select: bool,
-        memory: (&mut Estimator, &mut NormalEquations),
-    ) -> Vec<Candidate> {
-        let (estimator, equations) = memory;
-        let still = State::still(flat.clone());
+        estimator: &mut Estimator,
+    ) -> (Vec<Candidate>, bool) {
+        let still = State::still(flat);
         let mut found = Vec::new();
-        let mut start = |model, state: State, found: &mut Vec<Candidate>| {
-            let mut tried = self.try_out(model, state, STEPS[0], (estimator, equations));
-            tried.score += price(model);
+        let mut start = |state: State, found: &mut Vec<Candidate>| {
+            let mut tried = self.try_out(state, STEPS[0], estimator);
+            tried.score += price(tried.state.model);
             found.push(tried);
         };
         if select {
-            start(MotionModel::Still, still.clone(), &mut found);
+            start(still.clone(), &mut found);
             let turned = State {
+                model: MotionModel::Rotation,
                 rotation: blocks.rotation(),
                 ..still.clone()
             };
-            start(MotionModel::Rotation, turned, &mut found);
+            start(turned, &mut found);
         }
-        for (model, most) in [
-            (MotionModel::Full, DIRECTIONS[0]),
-            (MotionModel::Translation, DIRECTIONS[1]),
-        ] {
-            if model != MotionModel::Full && !select {
-                continue;
-            }
-            let first = found.len();
-            for direction in blocks.directions(most, model.rotates()) {
-                let state = State {
-                    translation: direction.translation,
-                    rotation: direction.rotation,
-                    surface: flat.clone(),
-                };
-                start(model, state, &mut found);
-            }
-            let best = found[first..]
-                .iter()
-                .min_by(|a, b| a.score.total_cmp(&b.score));
-            if let Some(mirror) = best
-                .filter(|b| b.model.rotates())
-                .map(|b| mirrored(&b.state))
-            {
-                start(model, mirror, &mut found);
+        for direction in blocks.directions(DIRECTIONS[0], true) {
+            start(still.moving(MotionModel::Full, &direction), &mut found);
+        }
+        let full = (found.iter()).filter(|c| c.state.model == MotionModel::Full);
+        let best = full.min_by(|a, b| a.score.total_cmp(&b.score));
+        if let Some(mirror) = best.map(|b| mirrored(&b.state)) {
+            start(mirror, &mut found);
+        }
+        if select {
+            for direction in blocks.directions(DIRECTIONS[1], false) {
+                start(
+                    still.moving(MotionModel::Translation, &direction),
+                    &mut found,
+                );
             }
         }
         // Those that may be as good on a finer scale are tried again there.
-        distinct(found, FINE * EQUAL)
+        let found = distinct(found, FINE * EQUAL);
+        let open = ambiguous(&found, EQUAL);
+        (found, open)
     }
 
-    /// Whether what [`Self::search`] found has another explanation that fits as well.
-    pub fn is_ambiguous(&self, candidates: &[Candidate]) -> bool {
-        ambiguous(candidates, EQUAL)
-    }
-
-    /// The same of what [`Self::select`] left.
-    pub fn stays_ambiguous(&self, candidates: &[Candidate]) -> bool {
-        let energy = candidates.first().map_or(0.0, |c| c.outcome.energy);
-        ambiguous(
-            candidates,
-            SYSTEMATIC * energy / f64::from(self.sigma * self.sigma),
-        )
-    }
-
-    /// The explanations given, the best first, after a few more steps of all but the first; with them a translation and a
+    /// The explanations given, the same, after a few more steps of all but the first; with them a translation and a
     /// mirror image, where a full motion comes first that has none; no translation unless the model is to be selected.
     pub fn select(
         &self,
-        mut given: Vec<(MotionModel, State)>,
+        mut given: Vec<State>,
         select: bool,
-        (estimator, equations): (&mut Estimator, &mut NormalEquations),
-    ) -> Vec<Candidate> {
-        if let Some((MotionModel::Full, own)) = given.first().cloned() {
-            if select && given.iter().all(|(m, _)| *m != MotionModel::Translation) {
-                given.push((MotionModel::Translation, unturned(&own)));
+        estimator: &mut Estimator,
+    ) -> (Vec<Candidate>, bool) {
+        if let Some(own) = given
+            .first()
+            .filter(|own| own.model == MotionModel::Full)
+            .cloned()
+        {
+            if select && given.iter().all(|s| s.model != MotionModel::Translation) {
+                given.push(unturned(&own));
             }
-            given.push((MotionModel::Full, mirrored(&own)));
+            given.push(mirrored(&own));
         }
-        let tried = given.into_iter().enumerate().map(|(n, (model, state))| {
+        let tried = given.into_iter().enumerate().map(|(n, state)| {
             let steps = if n == 0 { 0 } else { STEPS[1] };
-            self.try_out(model, state, steps, (&mut *estimator, &mut *equations))
+            self.try_out(state, steps, estimator)
         });
         let mut tried: Vec<Candidate> = tried.collect();
-        let least = (tried.iter().map(|c| c.outcome.energy)).fold(f64::INFINITY, f64::min);
-        let turn = SYSTEMATIC * least / f64::from(self.sigma * self.sigma);
+        let least = (tried.iter().map(|c| c.energy)).fold(f64::INFINITY, f64::min);
+        let turn = SYSTEMATIC * least / self.variance();
         for candidate in &mut tried {
-            candidate.score += match candidate.model {
+            candidate.score += match candidate.state.model {
                 MotionModel::Full => FINE * price(MotionModel::Translation) + turn,
                 model => FINE * price(model),
             };
         }
-        distinct(tried, turn)
+        let found = distinct(tried, turn);
+        let open = ambiguous(&found, turn);
+        (found, open)
     }
 }
 
@@ -209,7 +163,7 @@ fn distinct(found: Vec<Candidate>, close: f64) -> Vec<Candidate> {
     let mut elsewhere = false;
     for candidate in found {
         let other = points_elsewhere(&candidate, direction) && !elsewhere;
-        let new = kept.iter().all(|k| k.model != candidate.model);
+        let new = (kept.iter()).all(|k| k.state.model != candidate.state.model);
         if candidate.score <= limit && (new || other) {
             elsewhere |= other;
             kept.push(candidate);
@@ -220,7 +174,7 @@ fn distinct(found: Vec<Candidate>, close: f64) -> Vec<Candidate> {
 
 fn points_elsewhere(candidate: &Candidate, direction: DVec3) -> bool {
     let own = candidate.state.translation.normalize_or_zero();
-    candidate.model.translates() && own.dot(direction.normalize_or_zero()) < OTHER_DIRECTION
+    candidate.state.model.translates() && own.dot(direction.normalize_or_zero()) < OTHER_DIRECTION
 }
 
 /// Whether, of candidates with the best first, another with another direction of T explains the region as well: its
@@ -230,10 +184,10 @@ fn ambiguous(candidates: &[Candidate], equal: f64) -> bool {
         return false;
     };
     let direction = best.state.translation;
-    best.model.translates()
+    best.state.model.translates()
         && rest
             .iter()
-            .filter(|c| c.model <= best.model)
+            .filter(|c| c.state.model <= best.state.model)
             .any(|c| points_elsewhere(c, direction) && c.score < best.score + equal)
 }
 
@@ -243,6 +197,7 @@ fn unturned(state: &State) -> State {
     let mut surface = state.surface.clone();
     surface.rho.fill(1.0);
     State {
+        model: MotionModel::Translation,
         translation: DVec3::new(t.x + w.y, t.y - w.x, t.z),
         rotation: DMat3::IDENTITY,
         surface,
@@ -257,6 +212,7 @@ fn mirrored(state: &State) -> State {
         *rho = (2.0 - *rho).max(0.2);
     }
     State {
+        model: state.model,
         translation: DVec3::new(-t.x, -t.y, t.z),
         rotation: turn(DVec3::new(w.x - 2.0 * t.y, w.y + 2.0 * t.x, w.z)),
         surface,

@@ -26,17 +26,17 @@ const MODELS: [MotionModel; 4] = [
 /// Alternatives of a region at most.
 const MOST_ALTERNATIVES: usize = 64;
 
+/// All that there are.
+fn phases() -> Vec<Phase> {
+    let planar = (0..PLANAR_ROUNDS).map(Phase::Planar);
+    let rigid = (0..PASSES).map(Phase::Rigid);
+    let others = [Phase::Search, Phase::Refine, Phase::Done];
+    planar.chain(rigid).chain(others).collect()
+}
+
 impl Layered {
     pub(super) fn write(&self, to: &mut Packer) {
-        let (phase, done) = match self.phase {
-            Phase::Planar(done) => (0, done),
-            Phase::Search => (1, 0),
-            Phase::Rigid(done) => (2, done),
-            Phase::Refine => (3, 0),
-            Phase::Done => (4, 0),
-        };
-        to.byte(phase);
-        to.whole(done);
+        to.one_of(&phases(), &self.phase);
         to.whole(self.level);
         to.flag(self.warm);
         to.flag(self.rejected);
@@ -53,10 +53,7 @@ impl Layered {
         to.floats([self.weights.mu, self.weights.lambda, self.weights.sigma]);
         to.labels(self.labels.data());
         to.labels(self.offered.data());
-        to.whole(self.unexplained.len());
-        for &k in &self.unexplained {
-            to.whole(k);
-        }
+        to.list(&self.unexplained, |to, &k| to.whole(k));
         for region in &self.regions {
             for value in region.flow.p.into_iter().chain([region.flow.sigma]) {
                 to.single(value);
@@ -65,11 +62,10 @@ impl Layered {
             to.flag(region.hides);
             to.flag(region.rigid);
             to.whole(region.part_of.map_or(0, |whole| whole + 1));
-            write_explanation(region.model, &region.state, to);
-            to.whole(region.alternatives.len());
-            for (model, state) in &region.alternatives {
-                write_explanation(*model, state, to);
-            }
+            write_explanation(&region.state, to);
+            to.list(&region.alternatives, |to, state| {
+                write_explanation(state, to)
+            });
             to.flag(region.dense.is_some());
             if let Some(dense) = &region.dense {
                 to.exact(dense.data());
@@ -79,15 +75,7 @@ impl Layered {
 
     /// Takes a state over, of as many regions as there are. On an error all stays.
     pub(super) fn read(&mut self, from: &mut Unpacker) -> Result<(), Error> {
-        let (phase, done) = (from.byte()?, from.whole(PLANAR_ROUNDS.max(PASSES))?);
-        let phase = match phase {
-            0 => Phase::Planar(done),
-            1 => Phase::Search,
-            2 => Phase::Rigid(done),
-            3 => Phase::Refine,
-            4 => Phase::Done,
-            _ => return Err(from.wrong("it is at no stage that there is")),
-        };
+        let phase = from.one_of(&phases())?;
         let level = from.whole(self.first)?;
         let fits = match phase {
             Phase::Planar(_) | Phase::Search => level == self.first,
@@ -99,12 +87,9 @@ impl Layered {
         }
         let (warm, rejected, is_before) = (from.flag()?, from.flag()?, from.flag()?);
         let (sigma, label_sigma) = (from.single()?, from.single()?);
-        if !(sigma > 0.0 && label_sigma > 0.0 && sigma.is_finite() && label_sigma.is_finite()) {
+        let [far] = from.floats()?;
+        if !(sigma > 0.0 && label_sigma > 0.0 && far >= 0.0) {
             return Err(from.wrong("its σ is none"));
-        }
-        let far = from.float()?;
-        if !(far >= 0.0 && far.is_finite()) {
-            return Err(from.wrong("its error is none"));
         }
         let [data, smoothness, length] = from.floats()?;
         let [mu, lambda, weights_sigma] = from.floats()?;
@@ -114,14 +99,9 @@ impl Layered {
         let known = |k: u8| usize::from(k) < count;
         let labels = from.labels(width * height, known)?;
         let offered = from.labels(width * height, |k| k == NOBODY || known(k))?;
-        let unexplained = from.whole(count)?;
-        let unexplained: Vec<usize> = (0..unexplained)
-            .map(|_| from.whole(count - 1))
-            .collect::<Result<_, _>>()?;
+        let unexplained = from.list(count, |from| from.whole(count - 1))?;
         let whole = Window::whole(self.pair.width(), self.pair.height());
-        let regions: Vec<Region> = (0..count)
-            .map(|_| read_region(&whole, count, from))
-            .collect::<Result<_, _>>()?;
+        let regions = from.times(count, |from| read_region(&whole, count, from))?;
         from.end()?;
         let labels = Grid::from_vec(width, height, labels)?;
         let offered = Grid::from_vec(width, height, offered)?;
@@ -152,28 +132,28 @@ impl Layered {
     }
 }
 
-fn write_explanation(model: MotionModel, state: &State, to: &mut Packer) {
-    to.byte(MODELS.iter().position(|&m| m == model).unwrap_or(0) as u8);
+fn write_explanation(state: &State, to: &mut Packer) {
+    to.one_of(&MODELS, &state.model);
     to.floats(state.translation.to_array());
     to.floats(state.rotation.to_cols_array());
-    let surface = &state.surface;
-    let [left, top] = surface.corner();
-    for number in [surface.spacing, left, top, surface.columns, surface.rows] {
+    let Surface {
+        spacing,
+        left,
+        top,
+        columns,
+        rows,
+        ..
+    } = state.surface;
+    for number in [spacing, left, top, columns, rows] {
         to.whole(number);
     }
-    to.exact(&surface.rho);
+    to.exact(&state.surface.rho);
 }
 
-fn read_explanation(whole: &Window, from: &mut Unpacker) -> Result<(MotionModel, State), Error> {
-    let model = usize::from(from.byte()?);
-    let Some(&model) = MODELS.get(model) else {
-        return Err(from.wrong("it has a motion model that there is not"));
-    };
+fn read_explanation(whole: &Window, from: &mut Unpacker) -> Result<State, Error> {
+    let model = from.one_of(&MODELS)?;
     let translation = DVec3::from_array(from.floats()?);
     let rotation = DMat3::from_cols_array(&from.floats()?);
-    if !(translation.is_finite() && rotation.is_finite()) {
-        return Err(from.wrong("it has a motion that is none"));
-    }
     let side = whole.width.max(whole.height);
     let spacing = from.whole(4 * side)?;
     let (left, top) = (from.whole(whole.width)?, from.whole(whole.height)?);
@@ -181,35 +161,31 @@ fn read_explanation(whole: &Window, from: &mut Unpacker) -> Result<(MotionModel,
     if !spacing.is_power_of_two() || columns < 2 || rows < 2 {
         return Err(from.wrong("it has a surface that is none"));
     }
-    let surface = Surface::of(
+    let surface = Surface {
         spacing,
-        [left, top],
-        [columns, rows],
-        from.exact(columns * rows)?,
-    );
-    let state = State {
+        left,
+        top,
+        columns,
+        rows,
+        rho: from.exact(columns * rows)?,
+    };
+    Ok(State {
+        model,
         translation,
         rotation,
         surface,
-    };
-    Ok((model, state))
+    })
 }
 
 fn read_region(whole: &Window, count: usize, from: &mut Unpacker) -> Result<Region, Error> {
     let mut flow = PlanarFlow::default();
     for value in flow.p.iter_mut().chain([&mut flow.sigma]) {
         *value = from.single()?;
-        if !value.is_finite() {
-            return Err(from.wrong("it has a plane that is none"));
-        }
     }
     let (ambiguous, hides, rigid) = (from.flag()?, from.flag()?, from.flag()?);
     let part_of = from.whole(count)?.checked_sub(1);
-    let (model, state) = read_explanation(whole, from)?;
-    let alternatives = from.whole(MOST_ALTERNATIVES)?;
-    let alternatives = (0..alternatives)
-        .map(|_| read_explanation(whole, from))
-        .collect::<Result<_, _>>()?;
+    let state = read_explanation(whole, from)?;
+    let alternatives = from.list(MOST_ALTERNATIVES, |from| read_explanation(whole, from))?;
     let dense = if from.flag()? {
         let rho = from.exact(whole.width * whole.height)?;
         Some(Grid::from_vec(whole.width, whole.height, rho)?)
@@ -217,7 +193,7 @@ fn read_region(whole: &Window, count: usize, from: &mut Unpacker) -> Result<Regi
         None
     };
     let mut region = Region::new(state.surface.clone());
-    (region.flow, region.state, region.model) = (flow, state, model);
+    (region.flow, region.state) = (flow, state);
     (region.alternatives, region.dense) = (alternatives, dense);
     (region.ambiguous, region.hides) = (ambiguous, hides);
     (region.rigid, region.part_of) = (rigid, part_of);

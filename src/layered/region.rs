@@ -1,6 +1,6 @@
 //! What is known of one region.
 
-use super::estimate::{NormalEquations, Outcome, PlanarFlow, State, Surface};
+use super::estimate::{Estimator, PlanarFlow, State, Surface};
 use crate::grid::Grid;
 use crate::motion_model::MotionModel;
 use crate::window::Window;
@@ -11,15 +11,12 @@ pub(super) struct Region {
     pub flow: PlanarFlow,
     /// Its motion and surface.
     pub state: State,
-    pub model: MotionModel,
     /// Other models and directions that explain it nearly as well.
-    pub alternatives: Vec<(MotionModel, State)>,
+    pub alternatives: Vec<State>,
     /// Whether one of them explains it as well.
     pub ambiguous: bool,
-    /// What the last step left.
-    pub outcome: Outcome,
-    pub equations: NormalEquations,
-    /// Whether the equations are those of the state, the labels and the scale as they are.
+    pub estimator: Estimator,
+    /// Whether its equations are those of the state, the labels and the scale as they are.
     pub fresh: bool,
     /// Pixels of the scale at work around what it owns; `None` when it owns nothing.
     pub window: Option<Window>,
@@ -40,12 +37,13 @@ impl Region {
     pub fn new(surface: Surface) -> Self {
         Self {
             flow: PlanarFlow::default(),
-            state: State::still(surface),
-            model: MotionModel::Full,
+            state: State {
+                model: MotionModel::Full,
+                ..State::still(surface)
+            },
             alternatives: Vec::new(),
             ambiguous: false,
-            outcome: Outcome::default(),
-            equations: NormalEquations::default(),
+            estimator: Estimator::default(),
             fresh: false,
             window: None,
             reach: None,

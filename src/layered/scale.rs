@@ -9,6 +9,7 @@
 use crate::camera::Camera;
 use crate::frames::{FramePair, Lighting, Spline, blur, gradient, halved, halved_camera};
 use crate::grid::Grid;
+use crate::options::Options;
 
 /// A scale whose shorter side has fewer pixels than this is too coarse to show anything.
 const SHORTEST: usize = 24;
@@ -30,19 +31,19 @@ pub(crate) struct Scale {
     pub plain_second: Spline,
 }
 
-/// All scales, the finest first, of frames smoothed by `smoothing` pixels, the first in the light of the second.
-pub(crate) fn pyramid(
-    pair: &FramePair,
-    camera: Camera,
-    smoothing: f64,
-    lighting: Lighting,
-) -> Vec<Scale> {
+/// All scales, the finest first, of frames smoothed and the first in the light of the second as the options ask.
+pub(crate) fn pyramid(pair: &FramePair, camera: Camera, options: &Options) -> Vec<Scale> {
+    let lighting = if options.lighting {
+        Lighting::between(&pair.first().grey, &pair.second().grey)
+    } else {
+        Lighting::default()
+    };
     let (gain, offset) = (lighting.gain as f32, lighting.offset as f32);
     let mut plain = [
         pair.first().grey.map(|v| gain * v + offset),
         (*pair.second().grey).clone(),
     ];
-    let mut smooth = [blur(&plain[0], smoothing), blur(&plain[1], smoothing)];
+    let mut smooth = [0, 1].map(|n: usize| blur(&plain[n], options.smoothing));
     let mut camera = camera;
     let mut scales = Vec::new();
     loop {

@@ -13,14 +13,14 @@
 
 use std::rc::Rc;
 
-use super::estimate::{Estimator, PlanarFlow, Prior, State, Surface};
+use super::estimate::{PlanarFlow, Prior, State, Surface};
 use super::label::Memory;
 use super::region::Region;
 use super::scale::{Scale, pyramid};
 use crate::camera::Camera;
 use crate::curves;
 use crate::energy::Energy;
-use crate::frames::{FramePair, Lighting};
+use crate::frames::FramePair;
 use crate::grid::Grid;
 use crate::init::Small;
 use crate::options::Options;
@@ -63,7 +63,6 @@ pub(crate) struct Layered {
     /// The finest first.
     pub(super) scales: Vec<Scale>,
     pub(super) smoothing: f64,
-    pub(super) lighting: Lighting,
     pub(super) level: usize,
     /// The number of the first scale.
     pub(super) first: usize,
@@ -78,7 +77,6 @@ pub(crate) struct Layered {
     pub(super) sigma: f32,
     /// The same of the unsmoothed frames, by which labels are judged.
     pub(super) label_sigma: f32,
-    pub(super) estimator: Estimator,
     pub(super) memory: Memory,
     pub(super) energy: Energy,
     pub(super) weights: Weights,
@@ -103,18 +101,12 @@ impl Layered {
         level_sets: Vec<Grid<f32>>,
         options: &Options,
     ) -> Self {
-        let lighting = if options.lighting {
-            Lighting::between(&pair.first().grey, &pair.second().grey)
-        } else {
-            Lighting::default()
-        };
-        let scales = pyramid(&pair, camera, options.smoothing, lighting);
+        let scales = pyramid(&pair, camera, options);
         let small = |s: &Scale| s.width.min(s.height) <= FIRST_SIDE;
         let first = scales.iter().position(small).unwrap_or(scales.len() - 1);
         let mut layered = Self {
             pair,
             smoothing: options.smoothing,
-            lighting,
             level: first,
             first,
             phase: Phase::Planar(0),
@@ -124,7 +116,6 @@ impl Layered {
             regions: Vec::new(),
             sigma: 1.0,
             label_sigma: 1.0,
-            estimator: Estimator::default(),
             memory: Memory::default(),
             energy: Energy::default(),
             weights: Weights::default(),
@@ -215,6 +206,7 @@ impl Layered {
             mu: options.mu.unwrap_or(stiffness * size * variance),
             diffusion: options.diffusion,
             epsilon: options.epsilon,
+            sigma,
         }
     }
 

@@ -3,9 +3,8 @@
 //! Motion is found under weak charges for curvature and held, then the surface under strong ones: weak ones alone leave
 //! depth rough, strong ones alone turn T, since smoothness prefers the T that needs the least relief.
 
-use super::estimate::{Free, Prior, State, Support, surface_energy};
+use super::estimate::{Prior, Problem, Support, surface_energy};
 use super::label::{Occlusion, Outlines, Reach, drop_small_components, rigid_residual, saturation};
-use super::models::{Problem, free};
 use super::solver::{Layered, Phase};
 use crate::motion_model::MotionModel;
 use crate::options::Options;
@@ -40,6 +39,12 @@ impl Layered {
             region.reach = Window::around(width, height, reach);
             region.fresh = false;
         }
+    }
+
+    /// The pixels that region k owns, row by row.
+    pub(super) fn owned(&self, k: usize) -> impl Iterator<Item = (usize, usize)> {
+        let pixels = self.regions[k].window.into_iter().flat_map(Window::pixels);
+        pixels.filter(move |&at| usize::from(self.labels[at]) == k)
     }
 
     /// The window of the finest scale over which the surface of region k reaches: two cells beyond what it owns, the
@@ -79,7 +84,7 @@ impl Layered {
         self.improve(STIFFNESS[0], 1, true, options);
         let owned = self.regions.iter().filter(|r| r.window.is_some());
         self.sigma = owned
-            .map(|r| r.outcome.spread)
+            .map(|r| r.estimator.equations.spread)
             .fold(LEAST_SIGMA as f32, f32::max);
         self.regions.iter_mut().for_each(|r| r.fresh = false);
     }
@@ -95,9 +100,9 @@ impl Layered {
         let prior = self.prior(STIFFNESS[1], self.sigma, options);
         let owned = self.regions.iter().filter(|r| r.window.is_some());
         self.energy.smoothness = (owned.clone())
-            .map(|r| surface_energy(&r.state.surface, &prior, self.sigma))
+            .map(|r| surface_energy(&r.state.surface, &prior))
             .sum();
-        self.energy.data = owned.map(|r| r.outcome.data).sum();
+        self.energy.data = owned.map(|r| r.estimator.equations.cost).sum();
     }
 
     fn improve(&mut self, stiffness: f64, steps: usize, moving: bool, options: &Options) {
@@ -121,21 +126,16 @@ impl Layered {
                 ..Support::of(&self.labels, k, window)
             },
             prior,
-            sigma: self.sigma,
         };
-        let (free, moves) = if moving {
-            (free(region.model), region.model != MotionModel::Still)
+        let free = if moving {
+            region.state.model
         } else {
-            (Free::Depth, region.model.translates())
+            MotionModel::Still
         };
-        region.outcome = self.estimator.improve(
-            &problem,
-            &mut region.state,
-            free,
-            if moves { steps } else { 0 },
-            &mut region.equations,
-            region.fresh,
-        );
+        let (state, fresh) = (&mut region.state, region.fresh);
+        region
+            .estimator
+            .improve(&problem, state, free, steps, fresh);
         region.fresh = true;
     }
 
@@ -143,33 +143,29 @@ impl Layered {
     pub(super) fn select_models(&mut self, options: &Options) {
         let prior = self.prior(STIFFNESS[0], self.sigma, options);
         for k in 0..self.regions.len() {
-            let Some((up, labels, window)) = self.scale_for(k, LARGE) else {
+            let (level, labels) = self.scale_for(k, LARGE);
+            let Some(support) = Support::around(&labels, k) else {
                 continue;
             };
             let region = &mut self.regions[k];
-            let alternatives = std::mem::take(&mut region.alternatives);
             let problem = Problem {
-                scale: &self.scales[self.level + up],
-                level: self.level + up,
-                support: Support::of(&labels, k, window),
+                scale: &self.scales[level],
+                level,
+                support,
                 prior,
-                sigma: self.sigma,
             };
             let own = &region.state.surface;
             let (spacing, reach) = (own.spacing, own.window());
-            let over = |(model, mut state): (_, State)| {
-                state.surface = state.surface.over(spacing, &reach);
-                (model, state)
-            };
-            let mut given = vec![(region.model, region.state.clone())];
-            given.extend(alternatives.into_iter().map(over));
-            let memory = (&mut self.estimator, &mut region.equations);
-            let found = problem.select(given, options.model_selection, memory);
-            region.ambiguous = problem.stays_ambiguous(&found);
+            let mut given = vec![region.state.clone()];
+            for mut other in region.alternatives.drain(..) {
+                other.surface = other.surface.over(spacing, &reach);
+                given.push(other);
+            }
+            let select = options.model_selection;
+            let (found, ambiguous) = problem.select(given, select, &mut region.estimator);
+            region.ambiguous = ambiguous;
             if let Some(best) = found.into_iter().next() {
-                region.model = best.model;
                 region.state = best.state;
-                region.outcome = best.outcome;
             }
             region.fresh = false;
         }
@@ -186,8 +182,8 @@ impl Layered {
         }
         self.memory.charge(self.label_sigma);
         let occlusion = (options.occlusion && self.regions.len() > 1).then(|| {
-            let states: Vec<&State> = self.regions.iter().map(|r| &r.state).collect();
-            Occlusion::of(scale, level, &states, &self.labels)
+            let states = self.regions.iter().map(|r| &r.state);
+            Occlusion::of(scale, level, states, &self.labels)
         });
         if let Some(occlusion) = occlusion {
             self.memory.find_chance(scale, self.label_sigma);
@@ -200,16 +196,6 @@ impl Layered {
         }
         self.share_out(true, options);
         self.fit_surfaces();
-    }
-
-    /// What each pixel costs its region, averaged, where labels need not be found.
-    pub(super) fn find_costs(&mut self) {
-        let scale = &self.scales[self.level];
-        for (region, costs) in self.regions.iter().zip(&mut self.memory.costs) {
-            rigid_residual(scale, self.level, region, costs);
-        }
-        self.label_sigma = self.memory.spread(&self.labels).max(LEAST_SIGMA as f32);
-        self.memory.charge(self.label_sigma);
     }
 
     /// Gives every pixel to a region by the costs in memory: of planes, or of rigid motions.

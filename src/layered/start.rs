@@ -3,14 +3,12 @@
 //! A drawn circle covers only a part of its object and may miss some of it. Planes have eight numbers and reach as far as
 //! they fit, so that in a few rounds of fitting and labelling each curve finds the outline of what it was drawn on.
 
-use super::estimate::{Blocks, Degree, PlanarFlow, Support, Surface};
+use super::estimate::{Blocks, Degree, PlanarFlow, Problem, Support, Surface};
 use super::label::{coarsened, planar_cost};
-use super::models::Problem;
 use super::solver::Layered;
 use super::stages::STIFFNESS;
 use crate::grid::Grid;
 use crate::options::Options;
-use crate::window::Window;
 
 /// Rounds in which curves have six numbers instead of eight: a part of an object tells no more.
 const AFFINE_ROUNDS: usize = 3;
@@ -31,9 +29,8 @@ impl Layered {
                 continue;
             };
             if round == 0
-                && let Some(window) = around(&half, k)
+                && let Some(support) = Support::around(&half, k)
             {
-                let support = Support::of(&half, k, window);
                 let scale = &self.scales[coarse];
                 region.flow = PlanarFlow::search(scale, &support);
                 region.flow.fit(scale, &support, Degree::Shift, STEPS);
@@ -76,53 +73,38 @@ impl Layered {
             let sigma = flow.sigma.max(LEAST_SIGMA);
             let support = Support::of(&self.labels, k, window);
             let blocks = Blocks::gather(self.here(), &support, &flow);
-            let Some((up, labels, coarse)) = self.scale_for(k, LARGE) else {
+            let (level, labels) = self.scale_for(k, LARGE);
+            let Some(support) = Support::around(&labels, k) else {
                 continue;
             };
             let flat = Surface::flat(2 * self.spacing(), &self.reach_of(k, window));
             let problem = Problem {
-                scale: &self.scales[self.level + up],
-                level: self.level + up,
-                support: Support::of(&labels, k, coarse),
+                scale: &self.scales[level],
+                level,
+                support,
                 prior: self.prior(STIFFNESS[0], sigma, options),
-                sigma,
             };
             let region = &mut self.regions[k];
-            let memory = (&mut self.estimator, &mut region.equations);
-            let found = problem.search(&blocks, &flat, select, memory);
-            region.ambiguous = problem.is_ambiguous(&found);
+            let (found, ambiguous) = problem.search(&blocks, flat, select, &mut region.estimator);
+            region.ambiguous = ambiguous;
             region.fresh = false;
             region.dense = None;
             let mut found = found.into_iter();
             if let Some(best) = found.next() {
-                region.model = best.model;
                 region.state = best.state;
-                region.outcome = best.outcome;
             }
-            region.alternatives = found.map(|c| (c.model, c.state)).collect();
+            region.alternatives = found.map(|c| c.state).collect();
         }
         self.fit_surfaces();
         self.measure_sigma(options);
         self.estimate(options);
     }
-}
 
-impl Layered {
-    /// On which scale region k shows its motion: the one at work, 0, or the next coarser one, 1, if it has more than `large`
-    /// pixels; the labels there, and the region's window.
-    pub(super) fn scale_for(&self, k: usize, large: usize) -> Option<(usize, Grid<u8>, Window)> {
+    /// On which scale region k shows its motion: the one at work, or the next coarser one if it has more than `large`
+    /// pixels; and the labels there.
+    pub(super) fn scale_for(&self, k: usize, large: usize) -> (usize, Grid<u8>) {
         let owned = self.labels.data().iter().filter(|&&l| usize::from(l) == k);
         let up = usize::from(owned.count() > large && self.level + 1 < self.scales.len());
-        let labels = coarsened(&self.labels, up);
-        let window = around(&labels, k)?;
-        Some((up, labels, window))
+        (self.level + up, coarsened(&self.labels, up))
     }
-}
-
-/// The window around a label.
-fn around(labels: &Grid<u8>, k: usize) -> Option<Window> {
-    let data = labels.data();
-    Window::around(labels.width(), labels.height(), |i| {
-        usize::from(data[i]) == k
-    })
 }

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::label::NOBODY;
 use super::scale::pyramid;
 use super::solver::{Layered, Phase};
-use crate::frames::{FramePair, Lighting};
+use crate::frames::FramePair;
 use crate::grid::Grid;
 use crate::options::Options;
 
@@ -41,13 +41,7 @@ impl Layered {
             }
         }
         self.carry_surfaces(&before.flow.u, &before.flow.v);
-        self.lighting = if options.lighting {
-            Lighting::between(&pair.first().grey, &pair.second().grey)
-        } else {
-            Lighting::default()
-        };
-        let camera = self.scales[0].camera;
-        self.scales = pyramid(&pair, camera, self.smoothing, self.lighting);
+        self.scales = pyramid(&pair, self.scales[0].camera, options);
         self.pair = pair;
         self.small = None;
         self.far = 0.0;
@@ -65,7 +59,7 @@ impl Layered {
             // Who comes to a halt and goes back moves against what was found.
             let mut back = region.state.clone();
             (back.translation, back.rotation) = (-back.translation, back.rotation.transpose());
-            region.alternatives = vec![(region.model, back)];
+            region.alternatives = vec![back];
         }
         self.fit_memory();
         self.fit_surfaces();
@@ -73,24 +67,19 @@ impl Layered {
 
     /// Each surface has at a place what it had where that came from, to first order.
     fn carry_surfaces(&mut self, u: &Grid<f32>, v: &Grid<f32>) {
-        for (k, region) in self.regions.iter_mut().enumerate() {
+        for k in 0..self.regions.len() {
             let (mut sum, mut count) = ([0.0f64; 2], 0.0f64);
-            let level = self.level;
-            for (i, &label) in self.labels.data().iter().enumerate() {
-                if usize::from(label) == k {
-                    let (x, y) = (i % self.labels.width(), i / self.labels.width());
-                    let at = (
-                        (x << level).min(u.width() - 1),
-                        (y << level).min(u.height() - 1),
-                    );
-                    sum[0] += f64::from(u[at]);
-                    sum[1] += f64::from(v[at]);
-                    count += 1.0;
-                }
+            for (x, y) in self.owned(k) {
+                let place = |at: usize, side: usize| (at << self.level).min(side - 1);
+                let at = (place(x, u.width()), place(y, u.height()));
+                sum[0] += f64::from(u[at]);
+                sum[1] += f64::from(v[at]);
+                count += 1.0;
             }
             if count > 0.0 {
                 let shift = sum.map(|s| (s / count) as f32);
-                region.state.surface = region.state.surface.shifted(shift);
+                let surface = &mut self.regions[k].state.surface;
+                *surface = surface.shifted(shift);
             }
         }
     }

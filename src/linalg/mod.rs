@@ -3,7 +3,9 @@
 mod banded;
 mod cholesky;
 mod sphere;
+mod sums;
 
 pub(crate) use banded::Banded;
 pub use cholesky::solve;
 pub(crate) use sphere::{hemisphere, tangents};
+pub(crate) use sums::{dot, sum};

@@ -14,10 +14,11 @@
 
 use std::mem::swap;
 
-use super::rows::{least, most, sum};
-use super::smoothness::Smoothness;
+use super::rows::{least, most};
 use crate::grid::Grid;
 use crate::interpretation::NEAREST_FARTHEST;
+use crate::linalg::sum;
+use crate::smoothness::Smoothness;
 
 /// Greatest change of a pixel in one step, as a share of its depth: a/Z is far from its tangent beyond.
 const LARGEST_CHANGE: f32 = 0.2;

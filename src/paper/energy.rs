@@ -8,11 +8,11 @@
 //! [`curves::length`](crate::curves::length).
 
 use super::psi::Psi;
-use super::rows::{dot, sum};
-use super::smoothness::Smoothness;
 use crate::curves;
 use crate::energy::Energy;
 use crate::grid::Grid;
+use crate::linalg::{dot, sum};
+use crate::smoothness::Smoothness;
 
 /// The terms of (7) for level sets `phi` and depth `z`; `labels` are those of `phi`.
 pub fn energy(

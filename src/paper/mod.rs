@@ -9,15 +9,15 @@
 //! | ψ                | `psi.rs`        | ψ of every region, row by row                                     |
 //! | step 1           | `motion.rs`     | (T, ω) of every region by linear least squares, Z and curves fixed |
 //! | step 2, (9)      | `depth.rs`      | descent on Z, motions and curves fixed                            |
-//! | (11), (12)       | `smoothness.rs` | the function g that smooths depth                                 |
+//! | (11), (12)       | `Smoothness`    | the function g that smooths depth                                 |
 //! | step 3, (17)     | `curves.rs`     | curves as level sets, motions and Z fixed                         |
 //! | –                | `redistance.rs` | keeps level sets distances; the paper does not say how            |
 //! | –                | `weights.rs`    | μ and λ, which the paper sets by hand                             |
 //! | –                | `confidence.rs` | how far depth shows at a pixel                                    |
 //! | the whole        | `solver.rs`     | the order of the steps, the scale of depth, what is reported      |
 //!
-//! The constraint ψ itself is in [`constraint`](crate::constraint). `rows.rs` holds sums along rows of pixels:
-//! grids and products are `f32`, what is summed over more than a row is `f64`.
+//! The constraint ψ itself is in [`constraint`](crate::constraint). Grids and products are `f32`, what is summed over
+//! more than a row is `f64`.
 
 mod curves;
 mod depth;
@@ -27,14 +27,14 @@ mod packed;
 mod psi;
 mod redistance;
 mod rows;
-mod smoothness;
 mod solver;
 mod weights;
 
+/// The function g of (11) and (12).
+pub use crate::smoothness::Smoothness;
 pub use curves::{CurveEvolution, Residuals};
 pub use depth::DepthDescent;
 pub use energy::energy;
 pub use motion::least_squares;
 pub use psi::Psi;
-pub use smoothness::Smoothness;
 pub(crate) use solver::Paper;

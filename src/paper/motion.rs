@@ -7,11 +7,11 @@
 
 use glam::DVec3;
 
-use super::rows::{dot, runs};
+use super::rows::runs;
 use crate::camera::{Camera, RigidMotion};
 use crate::frames::Derivatives;
 use crate::grid::Grid;
-use crate::linalg::solve as solve_positive;
+use crate::linalg::{dot, solve as solve_positive};
 
 /// Relative weight that keeps a region without gradients solvable: its motion is 0.
 const FLOOR: f64 = 1e-9;

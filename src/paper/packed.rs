@@ -41,7 +41,7 @@ impl Paper {
     pub(super) fn read(&mut self, from: &mut Unpacker) -> Result<(), Error> {
         let noise = if from.flag()? {
             let [first, now] = from.floats()?;
-            if !(first > 0.0 && now > 0.0 && first.is_finite() && now.is_finite()) {
+            if !(first > 0.0 && now > 0.0) {
                 return Err(from.wrong("its σ is none"));
             }
             Some(Noise { first, now })
@@ -49,20 +49,12 @@ impl Paper {
             None
         };
         let [mu, lambda, sigma] = from.floats()?;
-        let motions: Vec<RigidMotion> = (0..self.motions.len())
-            .map(|_| {
-                let [translation, rotation] =
-                    [from.floats()?, from.floats()?].map(DVec3::from_array);
-                if translation.is_finite() && rotation.is_finite() {
-                    Ok(RigidMotion {
-                        translation,
-                        rotation,
-                    })
-                } else {
-                    Err(from.wrong("it has a motion that is none"))
-                }
+        let motions = from.times(self.motions.len(), |from| {
+            Ok(RigidMotion {
+                translation: DVec3::from_array(from.floats()?),
+                rotation: DVec3::from_array(from.floats()?),
             })
-            .collect::<Result<_, _>>()?;
+        })?;
         let (width, height) = (self.z.width(), self.z.height());
         let mut grid = |value: &dyn Fn(i32) -> f32| {
             let steps = from.alike(width * height)?;

@@ -11,7 +11,6 @@ use super::energy::energy;
 use super::motion::least_squares;
 use super::psi::Psi;
 use super::rows::{least, most, runs};
-use super::smoothness::Smoothness;
 use super::weights::Noise;
 use crate::camera::{Camera, RigidMotion};
 use crate::confidence::confidence;
@@ -24,7 +23,8 @@ use crate::grid::Grid;
 use crate::interpretation::{Flow, Interpretation, NEAREST_FARTHEST};
 use crate::motion_model::MotionModel;
 use crate::options::Options;
-use crate::solver::{Approach, Next, RegionState, Stage, Weights};
+use crate::smoothness::Smoothness;
+use crate::solver::{Approach, Next, RegionReport, Stage, Weights};
 use crate::spread::spread;
 
 /// Curves, motions and depth, and what they are judged by.
@@ -261,16 +261,10 @@ impl Approach for Paper {
         self.phi.clone()
     }
 
-    fn regions(&self) -> Vec<RegionState> {
-        let state = |&motion| RegionState {
-            motion,
-            model: MotionModel::seen(&self.camera, &motion),
-            ambiguous: false,
-            rigid: true,
-            part_of: None,
-            in_front_of: Vec::new(),
-        };
-        self.motions.iter().map(state).collect()
+    fn regions(&self) -> Vec<RegionReport> {
+        let report =
+            |(k, motion)| RegionReport::new(k, motion, MotionModel::seen(&self.camera, motion));
+        self.motions.iter().enumerate().map(report).collect()
     }
 
     fn weights(&self) -> Weights {

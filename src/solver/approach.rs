@@ -4,16 +4,14 @@
 
 use std::rc::Rc;
 
-use super::report::{Expected, Stage};
+use super::report::{Expected, RegionReport, Stage};
 use super::weights::Weights;
-use crate::camera::RigidMotion;
 use crate::energy::Energy;
 use crate::error::Error;
 use crate::file::packed::{Packer, Unpacker};
 use crate::frames::FramePair;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
-use crate::motion_model::MotionModel;
 use crate::options::Options;
 
 /// What follows a pass.
@@ -25,21 +23,6 @@ pub(crate) enum Next {
     Another,
     /// Nothing.
     Done,
-}
-
-/// What is estimated of a region.
-#[derive(Clone, Debug)]
-pub(crate) struct RegionState {
-    pub motion: RigidMotion,
-    pub model: MotionModel,
-    /// Whether another motion explains the region as well.
-    pub ambiguous: bool,
-    /// Whether a rigid motion fits it.
-    pub rigid: bool,
-    /// The region with which one motion explains it as well.
-    pub part_of: Option<usize>,
-    /// Labels of the regions that it hides a part of.
-    pub in_front_of: Vec<usize>,
 }
 
 /// One way to carry out the three steps.
@@ -83,8 +66,8 @@ pub(crate) trait Approach {
     /// The curves as level sets of the frame's size.
     fn level_sets(&self) -> Vec<Grid<f32>>;
 
-    /// Every region, the background first.
-    fn regions(&self) -> Vec<RegionState>;
+    /// Every region, the background first; how much of the frame each owns is left open.
+    fn regions(&self) -> Vec<RegionReport>;
 
     /// The weights in force.
     fn weights(&self) -> Weights;

@@ -10,7 +10,7 @@ mod report;
 mod state;
 mod weights;
 
-pub(crate) use approach::{Approach, Next, RegionState};
+pub(crate) use approach::{Approach, Next};
 pub use find::find_curves;
 pub use history::Status;
 pub use report::{Expected, LastPass, RegionReport, Report, Seconds, Stage};
@@ -22,10 +22,10 @@ use std::rc::Rc;
 use history::History;
 
 use crate::camera::Camera;
-use crate::curves::{Contour, Shape, contours, differing};
+use crate::curves::{Contour, Shape, contours, differing, smoothed};
 use crate::energy::Energy;
 use crate::error::Error;
-use crate::frames::{Frame, FramePair, blur, shrunk_camera};
+use crate::frames::{Frame, FramePair, shrunk_camera};
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
 use crate::layered::Layered;
@@ -80,8 +80,6 @@ pub struct Solver {
 
 /// Outlines of frames that were shrunk are drawn on frames of at most so many pixels.
 const OUTLINED: usize = 2_000_000;
-/// Standard deviation of the Gaussian that turns labels into level sets of their outlines, pixels.
-const OUTLINE_BLUR: f64 = 0.7;
 
 impl Solver {
     /// A solver at its start: the curves as drawn, the same depth everywhere, nothing moving.
@@ -366,8 +364,7 @@ impl Solver {
             let right = (window.left + window.width + 3).min(width);
             let bottom = (window.top + window.height + 3).min(height);
             let inside = Grid::from_fn(right - left, bottom - top, |x, y| {
-                let own = found.labels[(left + x, top + y)] == k;
-                if own { 1.0f32 } else { -1.0 }
+                found.labels[(left + x, top + y)] == k
             });
             let place = move |mut c: Contour| {
                 for p in &mut c.points {
@@ -375,11 +372,7 @@ impl Solver {
                 }
                 c.enlarged(n)
             };
-            Some(
-                contours(&blur(&inside, OUTLINE_BLUR), k)
-                    .into_iter()
-                    .map(place),
-            )
+            Some(contours(&smoothed(&inside, 1.0), k).into_iter().map(place))
         };
         (1..regions).filter_map(outlines).flatten().collect()
     }

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::approach::pixels;
 use super::weights::Weights;
 use super::{Solver, Status};
+use crate::camera::RigidMotion;
 use crate::energy::Energy;
 use crate::frames::Note;
 use crate::motion_model::MotionModel;
@@ -178,28 +179,35 @@ pub struct Times {
     pub steps: Seconds,
 }
 
+impl RegionReport {
+    /// A motion and its model, of which nothing else is known.
+    pub(crate) fn new(label: usize, motion: &RigidMotion, model: MotionModel) -> Self {
+        Self {
+            label,
+            pixels: 0,
+            share: 0.0,
+            translation: motion.translation.to_array(),
+            rotation: motion.rotation.to_array(),
+            model,
+            ambiguous: false,
+            rigid: true,
+            part_of: None,
+            in_front_of: Vec::new(),
+        }
+    }
+}
+
 impl Report {
     pub(super) fn of(solver: &Solver) -> Self {
-        let states = solver.approach.regions();
+        let mut regions = solver.approach.regions();
         let labels = solver.approach.labels();
         let (level, levels) = solver.approach.scale();
         let factor = solver.working.factor;
-        let owned = pixels(labels, states.len());
-        let regions: Vec<RegionReport> = (states.into_iter().zip(owned))
-            .enumerate()
-            .map(|(label, (state, pixels))| RegionReport {
-                label,
-                pixels: solver.in_frame(pixels, level),
-                share: pixels as f64 / labels.len() as f64,
-                translation: state.motion.translation.to_array(),
-                rotation: state.motion.rotation.to_array(),
-                model: state.model,
-                ambiguous: state.ambiguous,
-                rigid: state.rigid,
-                part_of: state.part_of,
-                in_front_of: state.in_front_of,
-            })
-            .collect();
+        let owned = pixels(labels, regions.len());
+        for (region, pixels) in regions.iter_mut().zip(owned) {
+            region.pixels = solver.in_frame(pixels, level);
+            region.share = pixels as f64 / labels.len() as f64;
+        }
         let energy = solver.energy();
         let steps = solver.seconds;
         Self {
@@ -234,39 +242,34 @@ impl Report {
 }
 
 fn warnings(regions: &[RegionReport]) -> impl Iterator<Item = String> {
-    let vanished = regions
-        .iter()
-        .filter(|r| r.pixels == 0)
-        .map(|r| match r.label {
-            0 => "The curves have taken the whole frame: no background is left.".to_owned(),
-            k => format!("Curve {k} has vanished: nothing moves differently where it was drawn."),
-        });
-    let ambiguous = regions.iter().filter(|r| r.ambiguous && r.pixels > 0).map(|r| {
+    let named = |label: usize| match label {
+        0 => "the background".to_owned(),
+        k => format!("region {k}"),
+    };
+    let vanished = regions.iter().filter(|r| r.pixels == 0);
+    let vanished = vanished.map(|r| match r.label {
+        0 => "The curves have taken the whole frame: no background is left.".to_owned(),
+        k => format!("Curve {k} has vanished: nothing moves differently where it was drawn."),
+    });
+    let present = || regions.iter().filter(|r| r.pixels > 0);
+    let loose = present().filter(|r| !r.rigid).map(move |r| {
+        let name = named(r.label);
+        format!("No rigid motion fits {name}: it bends, or several things move there.")
+    });
+    let parts = present().filter_map(move |r| {
+        let (label, whole) = (r.label, named(r.part_of?));
+        Some(format!(
+            "One motion explains region {label} and {whole} as well as two do: they may be one."
+        ))
+    });
+    let ambiguous = present().filter(|r| r.ambiguous).map(|r| {
         let name = match r.label {
             0 => "The background".to_owned(),
             k => format!("Region {k}"),
         };
-        format!("{name} has two explanations that fit equally well; the one with less relief is shown.")
-    });
-    let loose = regions
-        .iter()
-        .filter(|r| !r.rigid && r.pixels > 0)
-        .map(|r| {
-            let name = match r.label {
-                0 => "the background".to_owned(),
-                k => format!("region {k}"),
-            };
-            format!("No rigid motion fits {name}: it bends, or several things move there.")
-        });
-    let parts = regions.iter().filter(|r| r.pixels > 0).filter_map(|r| {
-        let whole = match r.part_of? {
-            0 => "the background".to_owned(),
-            k => format!("region {k}"),
-        };
-        let label = r.label;
-        Some(format!(
-            "One motion explains region {label} and {whole} as well as two do: they may be one."
-        ))
+        format!(
+            "{name} has two explanations that fit equally well; the one with less relief is shown."
+        )
     });
     vanished.chain(loose).chain(parts).chain(ambiguous)
 }

@@ -15,29 +15,27 @@ const MAGIC: &[u8; 4] = b"RLS1";
 const NAME: [&str; 2] = ["the kept pass", "solver state"];
 /// Passes at most.
 const MOST_PASSES: usize = 1 << 20;
+const PRESETS: [Preset; 2] = [Preset::Paper, Preset::Best];
+const STATUSES: [Status; 4] = [
+    Status::Running,
+    Status::Converged,
+    Status::Exhausted,
+    Status::Diverged,
+];
 
 impl Solver {
     /// Where it stands, as bytes for [`Solver::set_state`]: a few kilobytes under `best`, less once compressed. Meant for the
     /// end of a pass.
     pub fn state(&self) -> Vec<u8> {
         let mut to = Packer(MAGIC.to_vec());
-        to.byte(preset(self.options.preset));
+        to.one_of(&PRESETS, &self.options.preset);
         to.whole(self.working.pair.width());
         to.whole(self.working.pair.height());
         to.whole(self.shapes.len());
-        to.byte(match self.status {
-            Status::Running => 0,
-            Status::Converged => 1,
-            Status::Exhausted => 2,
-            Status::Diverged => 3,
-        });
+        to.one_of(&STATUSES, &self.status);
         self.history.write(&mut to);
-        let Seconds {
-            motion,
-            depth,
-            curves,
-        } = self.seconds;
-        to.floats([motion, depth, curves]);
+        let seconds = self.seconds;
+        to.floats([seconds.motion, seconds.depth, seconds.curves]);
         self.approach.pack(&mut to);
         to.0
     }
@@ -53,7 +51,7 @@ impl Solver {
         if from.take(4)? != MAGIC {
             return Err(from.wrong("it does not begin like one"));
         }
-        if from.byte()? != preset(self.options.preset) {
+        if from.one_of(&PRESETS)? != self.options.preset {
             return Err(from.wrong("it is of another preset"));
         }
         let [width, height] = [from.whole(usize::MAX)?, from.whole(usize::MAX)?];
@@ -67,13 +65,7 @@ impl Solver {
         if from.whole(MAX_CURVES)? != self.shapes.len() {
             return Err(from.wrong("it has another number of curves"));
         }
-        let status = match from.byte()? {
-            0 => Status::Running,
-            1 => Status::Converged,
-            2 => Status::Exhausted,
-            3 => Status::Diverged,
-            _ => return Err(from.wrong("it stands nowhere")),
-        };
+        let status = from.one_of(&STATUSES)?;
         let history = History::read(&mut from)?;
         let [motion, depth, curves] = from.floats()?;
         self.approach.unpack(&mut from)?;
@@ -89,35 +81,21 @@ impl Solver {
 
 impl History {
     fn write(&self, to: &mut Packer) {
-        to.whole(self.energies.len());
-        to.floats(self.energies.iter().copied());
-        to.whole(self.breaks.len());
-        for &after in &self.breaks {
-            to.whole(after);
-        }
+        to.list(&self.energies, |to, &energy| to.float(energy));
+        to.list(&self.breaks, |to, &after| to.whole(after));
         to.whole(self.drawn);
         to.whole(self.still);
     }
 
     fn read(from: &mut Unpacker) -> Result<Self, Error> {
-        let count = from.whole(MOST_PASSES)?;
-        let energies: Vec<f64> = (0..count).map(|_| from.float()).collect::<Result<_, _>>()?;
-        let breaks = from.whole(2 * MOST_PASSES)?;
+        let energies = from.list(MOST_PASSES, |from| from.float())?;
+        let count = energies.len();
         Ok(Self {
-            breaks: (0..breaks)
-                .map(|_| from.whole(count))
-                .collect::<Result<_, _>>()?,
+            breaks: from.list(2 * MOST_PASSES, |from| from.whole(count))?,
             drawn: from.whole(count)?,
             still: from.whole(MOST_PASSES)?,
             last: None,
             energies,
         })
-    }
-}
-
-fn preset(preset: Preset) -> u8 {
-    match preset {
-        Preset::Paper => 0,
-        Preset::Best => 1,
     }
 }

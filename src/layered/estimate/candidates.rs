@@ -10,7 +10,7 @@ use glam::DVec3;
 use super::super::scale::Scale;
 use super::normal_equations::Support;
 use super::planar::PlanarFlow;
-use super::state::turn;
+use crate::camera::turn;
 use crate::linalg::{hemisphere, solve};
 use crate::ordered::ordered;
 use glam::DMat3;
@@ -254,7 +254,7 @@ mod tests {
     fn a_turn_alone_is_found() {
         let w = DVec3::new(0.01, -0.015, 0.02);
         let made = Made::new(80, 64, DVec3::ZERO, w);
-        let found = glam::DQuat::from_mat3(&blocks(&made).rotation()).to_scaled_axis();
+        let found = crate::camera::omega(&blocks(&made).rotation());
         assert!((found - w).length() < 1e-3, "{found}");
     }
 }

@@ -9,6 +9,7 @@
 
 use super::surface::Surface;
 use crate::options::Diffusion;
+use crate::smoothness::Smoothness;
 
 /// κ: pull of ρ towards 1, in variances of the residual for a pixel.
 const PULL: f32 = 1e-4;
@@ -21,38 +22,32 @@ pub(crate) struct Prior {
     pub diffusion: Diffusion,
     /// ε of g(r/ε), change of slope per control point, 1/px.
     pub epsilon: f64,
+    /// σ of the residual, grey levels.
+    pub sigma: f32,
 }
 
 /// κ s², grey levels².
-pub(super) fn pull(surface: &Surface, variance: f32) -> f32 {
-    PULL * variance * (surface.spacing * surface.spacing) as f32
+pub(super) fn pull(surface: &Surface, prior: &Prior) -> f32 {
+    PULL * (prior.sigma * prior.sigma) * (surface.spacing * surface.spacing) as f32
+}
+
+impl Prior {
+    /// What a second difference at control points so many pixels apart costs.
+    pub(super) fn bending(&self, spacing: usize) -> Smoothness {
+        let weight = self.mu * self.epsilon * self.epsilon;
+        Smoothness::new(self.diffusion, weight, self.epsilon * spacing as f64)
+    }
 }
 
 /// What curvature and distance from 1 cost, grey levels².
-pub(crate) fn surface_energy(surface: &Surface, prior: &Prior, sigma: f32) -> f64 {
-    let s = surface.spacing as f32;
-    let edge = prior.epsilon as f32 * s;
+pub(crate) fn surface_energy(surface: &Surface, prior: &Prior) -> f64 {
+    let bending = prior.bending(surface.spacing);
     let mut sum = 0.0;
     for_each_curvature(surface, |_, _, share, d| {
-        let square = match prior.diffusion {
-            Diffusion::Isotropic => d * d,
-            Diffusion::Anisotropic => 2.0 * edge * edge * ((1.0 + (d / edge).powi(2)).sqrt() - 1.0),
-        };
-        sum += f64::from(share * square);
+        sum += f64::from(share * bending.at(d * d).0);
     });
-    let pull = pull(surface, sigma * sigma);
     let away: f32 = surface.rho.iter().map(|rho| (rho - 1.0).powi(2)).sum();
-    prior.mu / f64::from(s * s) * sum + f64::from(pull * away)
-}
-
-/// Half the derivative of what a second difference costs, over it.
-pub(super) fn curvature_weight(d: f32, spacing: usize, prior: &Prior) -> f32 {
-    let s = spacing as f32;
-    let mu = prior.mu as f32 / (s * s);
-    match prior.diffusion {
-        Diffusion::Isotropic => mu,
-        Diffusion::Anisotropic => mu / (1.0 + (d / (prior.epsilon as f32 * s)).powi(2)).sqrt(),
-    }
+    sum + f64::from(pull(surface, prior) * away)
 }
 
 /// Calls with the control points, factors, share and value of each second difference: ρ_xx, ρ_yy and, twice, ρ_xy.

@@ -11,8 +11,10 @@ mod surface;
 
 pub(crate) use candidates::{Blocks, OTHER_DIRECTION};
 pub(crate) use curvature::{Prior, surface_energy};
-pub(crate) use normal_equations::{NormalEquations, Support, most_cost};
+#[cfg(all(target_arch = "wasm32", feature = "bench"))]
+pub(crate) use normal_equations::NormalEquations;
+pub(crate) use normal_equations::{Problem, Support, most_cost};
 pub(crate) use planar::{Degree, PlanarFlow};
-pub(crate) use state::{State, turn};
-pub(crate) use step::{Estimator, Free, Outcome};
+pub(crate) use state::State;
+pub(crate) use step::Estimator;
 pub(crate) use surface::Surface;

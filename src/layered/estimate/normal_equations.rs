@@ -14,7 +14,8 @@
 use crate::grid::Grid;
 use crate::window::Window;
 
-use super::super::models::Problem;
+use super::super::scale::Scale;
+use super::curvature::Prior;
 use super::rows::Rows;
 use super::state::State;
 use super::surface::Surface;
@@ -48,6 +49,21 @@ impl<'a> Support<'a> {
             window,
         }
     }
+
+    /// The same in the window around them; `None` if there are none.
+    pub fn around(labels: &'a Grid<u8>, k: usize) -> Option<Self> {
+        let owns = |i: usize| usize::from(labels.data()[i]) == k;
+        let window = Window::around(labels.width(), labels.height(), owns)?;
+        Some(Self::of(labels, k, window))
+    }
+}
+
+/// A region's pixels at one scale, and what is charged.
+pub(crate) struct Problem<'a> {
+    pub scale: &'a Scale,
+    pub level: usize,
+    pub support: Support<'a>,
+    pub prior: Prior,
 }
 
 /// Sums of products with the derivative a = h·T by ρ, in one cell: of a² with the products of two pairs of linear
@@ -76,7 +92,7 @@ pub(crate) struct NormalEquations {
 }
 
 impl NormalEquations {
-    /// Goes over the region's pixels; residuals of the problem's σ are usual.
+    /// Goes over the region's pixels; residuals of the prior's σ are usual.
     pub fn gather(&mut self, problem: &Problem, state: &State) {
         let (scale, level, support) = (problem.scale, problem.level, problem.support);
         let (view, surface) = (&state.view(&scale.camera), &state.surface);
@@ -95,7 +111,7 @@ impl NormalEquations {
         self.motion = Default::default();
         self.cost = 0.0;
         let mut histogram = [0u32; 512];
-        let inverse = 1.0 / most_cost(problem.sigma);
+        let inverse = 1.0 / most_cost(problem.prior.sigma);
         let mut lanes = [[[0.0f32; 8]; 6]; 6];
         for y in top..top + height {
             surface.row(level, y, left, &mut self.rows.rho);

@@ -118,20 +118,14 @@ impl Rows {
                 [[0.0; LANES]; 3]
             };
             for (n, i) in (start..start + count).enumerate() {
-                if belongs[n] {
+                (self.residual[i], gx[i], gy[i], self.weight[i]) = if belongs[n] {
                     let residual = value[n] - first[i];
                     let bin = (residual.abs() * BINS_PER_LEVEL) as usize;
                     histogram[bin.min(last)] += 1;
-                    self.residual[i] = residual;
-                    gx[i] = across[n];
-                    gy[i] = down[n];
-                    self.weight[i] = 1.0;
+                    (residual, across[n], down[n], 1.0)
                 } else {
-                    self.residual[i] = 0.0;
-                    gx[i] = 0.0;
-                    gy[i] = 0.0;
-                    self.weight[i] = 0.0;
-                }
+                    Default::default()
+                };
             }
         }
     }

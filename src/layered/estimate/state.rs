@@ -1,15 +1,18 @@
-//! What is estimated of a region: T, R(ω) and the surface that they move.
+//! What is estimated of a region: a motion model, T, R(ω) and the surface that they move.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
 
+use super::candidates::Candidate;
 use super::surface::Surface;
-use crate::camera::{Camera, RigidMotion};
+use crate::camera::{Camera, RigidMotion, omega};
 use crate::layered::view::View;
 use crate::linalg::tangents;
+use crate::motion_model::MotionModel;
 
 /// What is estimated of a region.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct State {
+    pub model: MotionModel,
     pub translation: DVec3,
     pub rotation: DMat3,
     pub surface: Surface,
@@ -19,9 +22,20 @@ impl State {
     /// Nothing moves; a flat surface.
     pub fn still(surface: Surface) -> Self {
         Self {
+            model: MotionModel::Still,
             translation: DVec3::ZERO,
             rotation: DMat3::IDENTITY,
             surface,
+        }
+    }
+
+    /// The same surface, moving as the candidate does.
+    pub fn moving(&self, model: MotionModel, by: &Candidate) -> Self {
+        Self {
+            model,
+            translation: by.translation,
+            rotation: by.rotation,
+            surface: self.surface.clone(),
         }
     }
 
@@ -47,11 +61,6 @@ impl State {
 
     /// ω, radians per frame.
     pub fn omega(&self) -> DVec3 {
-        DQuat::from_mat3(&self.rotation).to_scaled_axis()
+        omega(&self.rotation)
     }
-}
-
-/// The matrix that turns by ω.
-pub(crate) fn turn(omega: DVec3) -> DMat3 {
-    DMat3::from_quat(DQuat::from_scaled_axis(omega))
 }

@@ -15,45 +15,24 @@
 
 use glam::DVec3;
 
-use super::super::models::Problem;
-use super::curvature::{Prior, curvature_weight, for_each_curvature, pull, surface_energy};
-use super::normal_equations::NormalEquations;
-use super::state::{State, turn};
+use super::curvature::{Prior, for_each_curvature, pull, surface_energy};
+use super::normal_equations::{NormalEquations, Problem};
+use super::state::State;
 use super::surface::{RHO, Surface};
+use crate::camera::turn;
 use crate::linalg::{Banded, solve};
+use crate::motion_model::MotionModel;
 
 /// Longest δT in a step, as a share of |T|.
 const LONGEST: f64 = 0.5;
 /// A step that lowers E by less than so many σ² is the last one.
 const ENOUGH: f64 = 1.0;
 
-/// What may change.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Free {
-    /// ρ alone.
-    Depth,
-    /// T and ρ.
-    Translation,
-    /// ω alone.
-    Rotation,
-    /// T, ω and ρ.
-    Full,
-}
-
-/// What a step leaves.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Outcome {
-    /// E, grey levels².
-    pub energy: f64,
-    /// Σ c(e), grey levels².
-    pub data: f64,
-    /// σ of the residuals, grey levels.
-    pub spread: f32,
-}
-
 /// Solves for steps; memory is used again.
 #[derive(Default)]
 pub(crate) struct Estimator {
+    /// Those of what the last call left.
+    pub equations: NormalEquations,
     band: Banded,
     /// For each control point: the columns of the five motions, and the gradient; eight numbers are two of SIMD's four.
     cross: Vec<[f32; 8]>,
@@ -63,61 +42,63 @@ pub(crate) struct Estimator {
 }
 
 impl Estimator {
-    /// Takes up to `steps` steps. `equations` are those of `state` where `fresh`, and are those of what is left in the end.
+    /// Takes up to `steps` steps in ρ and in what of T and ω is `free`: ρ alone where nothing is. `fresh` says that the
+    /// equations are those of `state`. E of what is left, grey levels².
     pub fn improve(
         &mut self,
         problem: &Problem,
         state: &mut State,
-        free: Free,
+        free: MotionModel,
         steps: usize,
-        equations: &mut NormalEquations,
         fresh: bool,
-    ) -> Outcome {
-        let (prior, sigma) = (&problem.prior, problem.sigma);
+    ) -> f64 {
+        let prior = &problem.prior;
         if !fresh {
-            equations.gather(problem, state);
+            self.equations.gather(problem, state);
         }
-        let mut outcome = outcome_of(equations, state, prior, sigma);
+        let mut energy = self.energy(state, prior);
+        if !free.translates() && !free.rotates() && state.translation == DVec3::ZERO {
+            // Without T no depth shows.
+            return energy;
+        }
         for _ in 0..steps {
             self.before.clone_from(state);
-            self.step(equations, state, free, prior, sigma);
-            equations.gather(problem, state);
-            let after = outcome_of(equations, state, prior, sigma);
+            self.step(state, free, prior);
+            self.equations.gather(problem, state);
+            let after = self.energy(state, prior);
             // Not a number is no gain either.
-            let gained = after.energy <= outcome.energy;
+            let gained = after <= energy;
             if !gained {
                 state.clone_from(&self.before);
-                equations.gather(problem, state);
+                self.equations.gather(problem, state);
                 break;
             }
-            let gain = outcome.energy - after.energy;
-            outcome = after;
-            if gain < ENOUGH * f64::from(sigma * sigma) {
+            let gain = energy - after;
+            energy = after;
+            if gain < ENOUGH * f64::from(prior.sigma * prior.sigma) {
                 break;
             }
         }
-        outcome
+        energy
+    }
+
+    fn energy(&self, state: &State, prior: &Prior) -> f64 {
+        self.equations.cost + surface_energy(&state.surface, prior)
     }
 
     /// One step.
-    fn step(
-        &mut self,
-        equations: &NormalEquations,
-        state: &mut State,
-        free: Free,
-        prior: &Prior,
-        sigma: f32,
-    ) {
-        let variance = sigma * sigma;
-        let moves_depth = free != Free::Rotation;
+    fn step(&mut self, state: &mut State, free: MotionModel, prior: &Prior) {
+        // A turn alone looks alike at any depth.
+        let moves_depth = free != MotionModel::Rotation;
         if moves_depth {
-            self.assemble(equations, &state.surface, prior, variance);
+            self.assemble(&state.surface, prior);
             self.band.factorise();
             self.solved.clear();
             self.solved.extend_from_slice(&self.cross);
             self.band.solve(&mut self.solved);
         }
-        let mut a = equations.motion;
+        let full = self.equations.motion;
+        let mut a = full;
         for i in 0..6 {
             for j in 0..i {
                 a[i][j] = a[j][i];
@@ -132,24 +113,19 @@ impl Estimator {
                 }
             }
         }
-        let delta = motion_step(&a, &equations.motion, free, f64::from(variance));
-        self.apply(equations, state, delta, moves_depth);
+        let variance = f64::from(prior.sigma * prior.sigma);
+        let delta = motion_step(&a, &full, free, variance);
+        self.apply(state, delta, moves_depth);
     }
 
     /// The band matrix and the right-hand sides.
-    fn assemble(
-        &mut self,
-        equations: &NormalEquations,
-        surface: &Surface,
-        prior: &Prior,
-        variance: f32,
-    ) {
+    fn assemble(&mut self, surface: &Surface, prior: &Prior) {
         let nodes = surface.rho.len();
         self.band.clear(nodes, surface.bandwidth());
         self.cross.clear();
         self.cross.resize(nodes, [0.0; 8]);
         let rows = surface.rows - 1;
-        for (n, cell) in equations.cells.iter().enumerate() {
+        for (n, cell) in self.equations.cells.iter().enumerate() {
             let corners = surface.corners(n / rows, n % rows);
             for p in 0..4 {
                 for q in 0..=p {
@@ -163,8 +139,10 @@ impl Estimator {
         }
         let band = &mut self.band;
         let cross = &mut self.cross;
+        let bending = prior.bending(surface.spacing);
         for_each_curvature(surface, |nodes, factors, share, d| {
-            let weight = share * curvature_weight(d, surface.spacing, prior);
+            // Half the derivative of what d costs, over d.
+            let weight = 0.5 * share * bending.at(d * d).1;
             for (p, &node) in nodes.iter().enumerate() {
                 for (q, &other) in nodes[..=p].iter().enumerate() {
                     band.add(node, other, weight * factors[p] * factors[q]);
@@ -172,7 +150,8 @@ impl Estimator {
                 cross[node][5] += weight * d * factors[p];
             }
         });
-        let pull = pull(surface, variance);
+        let variance = prior.sigma * prior.sigma;
+        let pull = pull(surface, prior);
         for (n, cross) in cross.iter_mut().enumerate() {
             band.stiffen(n, 1e-5, pull + 1e-3 * variance);
             cross[5] += pull * (surface.rho[n] - 1.0);
@@ -180,19 +159,13 @@ impl Estimator {
     }
 
     /// Applies a step of the motion, and the surface's answer to it.
-    fn apply(
-        &mut self,
-        equations: &NormalEquations,
-        state: &mut State,
-        delta: [f64; 5],
-        moves_depth: bool,
-    ) {
-        let [first, second] = state.tangent();
-        let shift = first * delta[0] + second * delta[1];
+    fn apply(&mut self, state: &mut State, delta: [f64; 5], moves_depth: bool) {
+        state.rotation = turn(DVec3::new(delta[2], delta[3], delta[4])) * state.rotation;
         if !moves_depth {
-            state.rotation = turn(DVec3::new(delta[2], delta[3], delta[4])) * state.rotation;
             return;
         }
+        let [first, second] = state.tangent();
+        let shift = first * delta[0] + second * delta[1];
         for solved in &mut self.solved {
             let mut change = solved[5];
             for (d, s) in delta.iter().zip(*solved) {
@@ -200,8 +173,8 @@ impl Estimator {
             }
             solved[5] = -change;
         }
-        let surface = &state.surface;
-        let mean = equations.mean(surface, |n| self.solved[n][5]);
+        let equations = &self.equations;
+        let mean = equations.mean(&state.surface, |n| self.solved[n][5]);
         let grown = f64::from(mean.clamp(-0.7, 2.0));
         let old = state.translation;
         let new = old * (1.0 + grown) + shift;
@@ -210,7 +183,6 @@ impl Estimator {
             *rho = (*rho + share * (solved[5] - mean * *rho)).clamp(RHO[0], RHO[1]);
         }
         state.translation = new;
-        state.rotation = turn(DVec3::new(delta[2], delta[3], delta[4])) * state.rotation;
         let mean = equations.mean(&state.surface, |n| state.surface.rho[n]);
         if mean > 1e-3 {
             state.surface.rho.iter_mut().for_each(|rho| *rho /= mean);
@@ -246,14 +218,12 @@ impl NormalEquations {
 fn motion_step(
     reduced: &[[f64; 6]; 6],
     full: &[[f64; 6]; 6],
-    free: Free,
+    free: MotionModel,
     variance: f64,
 ) -> [f64; 5] {
-    let is_free = |i: usize| match free {
-        Free::Depth => false,
-        Free::Translation => i < 2,
-        Free::Rotation => i >= 2,
-        Free::Full => true,
+    let is_free = |i: usize| match i < 2 {
+        true => free.translates(),
+        false => free.rotates(),
     };
     let mut a = [[0.0; 5]; 5];
     let mut b = [0.0; 5];
@@ -272,14 +242,6 @@ fn motion_step(
     let step = solve(&a, &b).unwrap_or_default();
     let length = step[0].hypot(step[1]);
     step.map(|d| d * (LONGEST / length).min(1.0))
-}
-
-fn outcome_of(equations: &NormalEquations, state: &State, prior: &Prior, sigma: f32) -> Outcome {
-    Outcome {
-        energy: equations.cost + surface_energy(&state.surface, prior, sigma),
-        data: equations.cost,
-        spread: equations.spread,
-    }
 }
 
 #[cfg(test)]

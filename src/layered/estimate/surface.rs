@@ -17,8 +17,8 @@ pub(crate) struct Surface {
     /// Pixels of the finest scale from one control point to the next; a power of two.
     pub spacing: usize,
     /// Pixels of the finest scale left of and above the first control point; multiples of the spacing.
-    left: usize,
-    top: usize,
+    pub left: usize,
+    pub top: usize,
     pub columns: usize,
     pub rows: usize,
     /// ρ at each control point, at [`Self::node`].
@@ -41,29 +41,6 @@ impl Surface {
             rows,
             rho: vec![1.0; columns * rows],
         }
-    }
-
-    /// The surface with these control points, the first of which lies at `corner`; at least two each way.
-    pub fn of(
-        spacing: usize,
-        [left, top]: [usize; 2],
-        [columns, rows]: [usize; 2],
-        rho: Vec<f32>,
-    ) -> Self {
-        debug_assert_eq!(rho.len(), columns * rows);
-        Self {
-            spacing,
-            left,
-            top,
-            columns,
-            rows,
-            rho,
-        }
-    }
-
-    /// Pixels of the finest scale left of and above the first control point.
-    pub fn corner(&self) -> [usize; 2] {
-        [self.left, self.top]
     }
 
     /// The surface through the means of `rho`, a grid of the finest scale, around each control point.
@@ -89,29 +66,27 @@ impl Surface {
     /// The same surface over other control points; beyond its own it goes on as at its border.
     pub fn over(&self, spacing: usize, window: &Window) -> Self {
         let mut new = Self::flat(spacing, window);
-        for i in 0..new.columns {
-            for j in 0..new.rows {
-                let x = (new.left + i * spacing) as f32 - 0.5;
-                let y = (new.top + j * spacing) as f32 - 0.5;
-                let node = new.node(i, j);
-                new.rho[node] = self.at(x, y);
-            }
-        }
+        new.set(|x, y| self.at(x, y));
         new
     }
 
     /// The same surface moved by (u, v) pixels of the finest scale, over the same control points.
     pub fn shifted(&self, [u, v]: [f32; 2]) -> Self {
         let mut new = self.clone();
+        new.set(|x, y| self.at(x - u, y - v));
+        new
+    }
+
+    /// Gives every control point the ρ of its place on the finest scale.
+    fn set(&mut self, rho: impl Fn(f32, f32) -> f32) {
         for i in 0..self.columns {
             for j in 0..self.rows {
                 let x = (self.left + i * self.spacing) as f32 - 0.5;
                 let y = (self.top + j * self.spacing) as f32 - 0.5;
                 let node = self.node(i, j);
-                new.rho[node] = self.at(x - u, y - v);
+                self.rho[node] = rho(x, y);
             }
         }
-        new
     }
 
     /// Where a control point's ρ is kept: neighbours along the shorter side follow each other, which keeps

@@ -3,6 +3,7 @@
 //! A 4-connected component of a curve's region with less than [`SMALL`] of the pixels of its largest one goes to the
 //! background.
 
+use crate::connected::parts;
 use crate::grid::Grid;
 
 /// Share of the largest component below which another is given up.
@@ -10,44 +11,32 @@ const SMALL: f64 = 0.2;
 
 /// Gives small components of all regions but the background to the background.
 pub(in crate::layered) fn drop_small_components(labels: &mut Grid<u8>) {
-    let (width, height) = (labels.width(), labels.height());
-    let mut seen = Grid::new(width, height, false);
-    let mut components: Vec<(u8, Vec<(usize, usize)>)> = Vec::new();
-    for y in 0..height {
-        for x in 0..width {
-            let label = labels[(x, y)];
-            if label == 0 || seen[(x, y)] {
-                continue;
-            }
-            seen[(x, y)] = true;
-            let mut pixels = vec![(x, y)];
-            let mut next = 0;
-            while let Some(&(x, y)) = pixels.get(next) {
-                next += 1;
-                let around = [
-                    (x.wrapping_sub(1), y),
-                    (x + 1, y),
-                    (x, y.wrapping_sub(1)),
-                    (x, y + 1),
-                ];
-                for at in around {
-                    let inside = at.0 < width && at.1 < height;
-                    if inside && labels[at] == label && !seen[at] {
-                        seen[at] = true;
-                        pixels.push(at);
-                    }
-                }
-            }
-            components.push((label, pixels));
-        }
-    }
-    let largest = |label: u8| {
-        let own = components.iter().filter(|(l, _)| *l == label);
-        own.map(|(_, pixels)| pixels.len()).max().unwrap_or(0) as f64
+    let (width, data) = (labels.width(), labels.data());
+    let components = parts(
+        data.len(),
+        |i| data[i] != 0,
+        |i| {
+            let across = [
+                (i % width > 0).then(|| i - 1),
+                (i % width + 1 < width).then(|| i + 1),
+            ];
+            let down = [
+                i.checked_sub(width),
+                Some(i + width).filter(|&o| o < data.len()),
+            ];
+            let around = across.into_iter().chain(down).flatten();
+            around.filter(move |&other| data[other] == data[i])
+        },
+    );
+    let label = |component: &[usize]| data[component[0]];
+    let largest = |of: u8| {
+        let own = components.iter().filter(|c| label(c) == of);
+        own.map(Vec::len).max().unwrap_or(0) as f64
     };
-    let small = |(label, pixels): &&(u8, Vec<_>)| (pixels.len() as f64) < SMALL * largest(*label);
-    for &at in components.iter().filter(small).flat_map(|(_, p)| p) {
-        labels[at] = 0;
+    let small = |c: &&Vec<usize>| (c.len() as f64) < SMALL * largest(label(c));
+    let given_up: Vec<usize> = components.iter().filter(small).flatten().copied().collect();
+    for i in given_up {
+        labels.data_mut()[i] = 0;
     }
 }
 

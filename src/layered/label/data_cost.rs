@@ -8,12 +8,14 @@
 //! of a pixel would be favoured. Grey levels². A pixel that leaves the frame says nothing of who owns it: it is charged
 //! [`LEAVES`] of the largest cost.
 
+use std::ops::Range;
+
+use super::super::estimate::Surface;
 use super::super::region::Region;
 use super::super::scale::Scale;
 use super::memory::WINDOW;
 use crate::frames::{LANES, Spline};
 use crate::grid::Grid;
-use crate::window::Window;
 
 /// What a pixel that leaves the frame is charged, in units of the largest cost.
 const LEAVES: f32 = 0.6;
@@ -36,20 +38,34 @@ pub(crate) fn rigid_residual(scale: &Scale, level: usize, region: &Region, out: 
     if region.window.is_none() {
         return;
     }
-    let state = &region.state;
-    let window = inside(&state.surface.window(), level, scale);
-    let view = state.view(&scale.camera);
-    let mut rho = vec![1.0; window.width];
-    for y in window.top..window.top + window.height {
-        state.surface.row(level, y, window.left, &mut rho);
-        let first = &scale.plain.row(y)[window.left..window.left + window.width];
-        let out = &mut out.row_mut(y)[window.left..window.left + window.width];
+    let view = region.state.view(&scale.camera);
+    for_each_row(scale, level, &region.state.surface, |y, columns, rho| {
+        let first = &scale.plain.row(y)[columns.clone()];
+        let out = &mut out.row_mut(y)[columns.clone()];
         read_row(scale, &scale.plain_second, out, |n| {
-            view.target(window.left + n, y, rho[n])
+            view.target(columns.start + n, y, rho[n])
         });
         out.iter_mut()
             .zip(first)
             .for_each(|(out, first)| *out -= first);
+    });
+}
+
+/// Calls with every row of pixels that a surface reaches, with its columns there, and ρ of each.
+pub(super) fn for_each_row(
+    scale: &Scale,
+    level: usize,
+    surface: &Surface,
+    mut each: impl FnMut(usize, Range<usize>, &[f32]),
+) {
+    // The part of its window that lies on the frame, in pixels of the scale.
+    let window = surface.window();
+    let columns = window.left >> level..((window.left + window.width) >> level).min(scale.width);
+    let rows = window.top >> level..((window.top + window.height) >> level).min(scale.height);
+    let mut rho = vec![1.0; columns.len()];
+    for y in rows {
+        surface.row(level, y, columns.start, &mut rho);
+        each(y, columns.clone(), &rho);
     }
 }
 
@@ -125,18 +141,5 @@ pub(super) fn chance_cost(scale: &Scale, sigma: f32, out: &mut Grid<f32>) {
             ];
             *out = around.iter().map(|v| cost(v - here, most)).sum::<f32>() / 4.0;
         }
-    }
-}
-
-/// The part of a window of the finest scale that lies on scale `level`, in its pixels.
-pub(crate) fn inside(window: &Window, level: usize, scale: &Scale) -> Window {
-    let (left, top) = (window.left >> level, window.top >> level);
-    let right = ((window.left + window.width) >> level).min(scale.width);
-    let bottom = ((window.top + window.height) >> level).min(scale.height);
-    Window {
-        left,
-        top,
-        width: right - left,
-        height: bottom - top,
     }
 }

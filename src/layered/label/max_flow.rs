@@ -21,8 +21,8 @@ pub(super) const STEPS: [(isize, isize); 8] = [
 ];
 /// Capacities below this are none: rounding leaves as much.
 const NOTHING: f32 = 1e-5;
-/// Farther than any node.
-const UNREACHED: u32 = u32::MAX;
+/// Farther than any node, and the number of none.
+pub(super) const NOWHERE: u32 = u32::MAX;
 
 /// One node.
 #[derive(Clone, Copy, Default)]
@@ -64,14 +64,14 @@ impl Graph {
 
     /// Whether node i is on A's side of the cut.
     pub fn is_a(&self, i: usize) -> bool {
-        self.distance[i] != UNREACHED
+        self.distance[i] != NOWHERE
     }
 
     /// Distances from A, as far as to the nearest node that is drawn to B; the number of nodes drawn to A, which head
     /// the queue, or `None` when no way is left.
     fn measure(&mut self) -> Option<usize> {
         self.distance.clear();
-        self.distance.resize(self.nodes.len(), UNREACHED);
+        self.distance.resize(self.nodes.len(), NOWHERE);
         self.queue.clear();
         for (i, node) in self.nodes.iter().enumerate() {
             if node.terminal > NOTHING {
@@ -80,7 +80,7 @@ impl Graph {
             }
         }
         let sources = self.queue.len();
-        let (mut at, mut nearest) = (0, UNREACHED);
+        let (mut at, mut nearest) = (0, NOWHERE);
         while let Some(&i) = self.queue.get(at) {
             at += 1;
             let (node, distance) = (&self.nodes[i as usize], self.distance[i as usize]);
@@ -92,13 +92,13 @@ impl Graph {
                 continue;
             }
             for (&capacity, &j) in node.capacities.iter().zip(&node.neighbours) {
-                if capacity > NOTHING && self.distance[j as usize] == UNREACHED {
+                if capacity > NOTHING && self.distance[j as usize] == NOWHERE {
                     self.distance[j as usize] = distance + 1;
                     self.queue.push(j);
                 }
             }
         }
-        (nearest != UNREACHED).then_some(sources)
+        (nearest != NOWHERE).then_some(sources)
     }
 
     /// Looks for a shortest way from a node to one that is drawn to B.

@@ -18,6 +18,7 @@ const UNEXPLAINED: f32 = 0.6;
 const NEAR: usize = 4;
 
 /// Costs and what is passed from one to the other.
+#[derive(Default)]
 pub(in crate::layered) struct Memory {
     /// For each region what each pixel costs it, grey levels².
     pub costs: Vec<Grid<f32>>,
@@ -25,19 +26,6 @@ pub(in crate::layered) struct Memory {
     spare: Grid<f32>,
     swaps: Swaps,
     sizes: Vec<f32>,
-}
-
-impl Default for Memory {
-    fn default() -> Self {
-        let empty = Grid::new(0, 0, 0.0);
-        Self {
-            costs: Vec::new(),
-            chance: empty.clone(),
-            spare: empty,
-            swaps: Swaps::default(),
-            sizes: Vec::new(),
-        }
-    }
 }
 
 impl Memory {

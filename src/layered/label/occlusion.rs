@@ -6,24 +6,26 @@
 
 use super::super::estimate::State;
 use super::super::scale::Scale;
-use super::data_cost::inside;
+use super::data_cost::for_each_row;
 use crate::grid::Grid;
 
 /// Places of the second frame that regions share before one is said to hide the other.
 const MEETING: usize = 10;
 
 /// Which regions are seen at each place of the second frame, a bit for each.
-pub(in crate::layered) struct Occlusion {
-    seen: Grid<u8>,
-    regions: usize,
-}
+pub(in crate::layered) struct Occlusion(Grid<u8>);
 
 impl Occlusion {
     /// Where the pixels of all regions but the background go.
-    pub fn of(scale: &Scale, level: usize, states: &[&State], labels: &Grid<u8>) -> Self {
+    pub fn of<'a>(
+        scale: &Scale,
+        level: usize,
+        states: impl Iterator<Item = &'a State>,
+        labels: &Grid<u8>,
+    ) -> Self {
         let mut seen = Grid::new(scale.width, scale.height, 0u8);
         let (width, height) = (scale.width as f32, scale.height as f32);
-        for (k, state) in states.iter().enumerate().skip(1) {
+        for (k, state) in states.enumerate().skip(1) {
             for_each_target(scale, level, state, |x, y, to_x, to_y| {
                 if usize::from(labels[(x, y)]) != k {
                     return;
@@ -42,19 +44,15 @@ impl Occlusion {
                 }
             });
         }
-        Self {
-            seen,
-            regions: states.len(),
-        }
+        Self(seen)
     }
 
     /// The regions in front that are seen at a place of the second frame.
     pub fn at(&self, x: f32, y: f32) -> u8 {
         let (x, y) = (x.round(), y.round());
-        let inside =
-            x >= 0.0 && y >= 0.0 && x < self.seen.width() as f32 && y < self.seen.height() as f32;
-        if inside {
-            self.seen[(x as usize, y as usize)]
+        let (width, height) = (self.0.width() as f32, self.0.height() as f32);
+        if x >= 0.0 && y >= 0.0 && x < width && y < height {
+            self.0[(x as usize, y as usize)]
         } else {
             0
         }
@@ -68,8 +66,8 @@ impl Occlusion {
         background: &State,
         chance: &Grid<f32>,
         costs: &mut Grid<f32>,
-    ) -> Vec<bool> {
-        let mut hidden = vec![0; self.regions];
+    ) -> [bool; 8] {
+        let mut hidden = [0; 8];
         for_each_target(scale, level, background, |x, y, to_x, to_y| {
             let seen = self.at(to_x, to_y);
             if seen == 0 {
@@ -83,7 +81,7 @@ impl Occlusion {
                 }
             }
         });
-        hidden.iter().map(|&count| count >= MEETING).collect()
+        hidden.map(|count| count >= MEETING)
     }
 }
 
@@ -94,17 +92,13 @@ fn for_each_target(
     state: &State,
     mut each: impl FnMut(usize, usize, f32, f32),
 ) {
-    let window = inside(&state.surface.window(), level, scale);
     let view = state.view(&scale.camera);
-    let mut rho = vec![1.0; window.width];
-    for y in window.top..window.top + window.height {
-        state.surface.row(level, y, window.left, &mut rho);
-        for (n, rho) in rho.iter().enumerate() {
-            let x = window.left + n;
+    for_each_row(scale, level, &state.surface, |y, columns, rho| {
+        for (x, rho) in columns.zip(rho) {
             let [to_x, to_y] = view.target(x, y, *rho);
             each(x, y, to_x, to_y);
         }
-    }
+    });
 }
 
 #[cfg(test)]
@@ -113,9 +107,10 @@ mod tests {
 
     use super::*;
     use crate::camera::Camera;
-    use crate::frames::{Frame, FramePair, Lighting};
+    use crate::frames::{Frame, FramePair};
     use crate::layered::estimate::Surface;
     use crate::layered::scale::pyramid;
+    use crate::options::Options;
     use crate::window::Window;
 
     /// A square of columns 20–40 and rows 15–30 that goes five pixels to the right over what is still.
@@ -135,7 +130,12 @@ mod tests {
         };
         let pair = FramePair::new(frame(0), frame(5)).unwrap();
         let camera = Camera::centred(64.0, 64, 48).unwrap();
-        let scale = pyramid(&pair, camera, 0.0, Lighting::default()).swap_remove(0);
+        let plain = Options {
+            smoothing: 0.0,
+            lighting: false,
+            ..Options::default()
+        };
+        let scale = pyramid(&pair, camera, &plain).swap_remove(0);
         let still = State::still(Surface::flat(8, &Window::whole(64, 48)));
         let moving = State {
             translation: DVec3::new(5.0 / 64.0, 0.0, 0.0),
@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn what_a_square_goes_over_is_hidden_and_what_it_leaves_is_not() {
         let (scale, [still, moving], labels) = made();
-        let occlusion = Occlusion::of(&scale, 0, &[&still, &moving], &labels);
+        let occlusion = Occlusion::of(&scale, 0, [&still, &moving].into_iter(), &labels);
         for y in 16..29 {
             for x in 40..44 {
                 assert_eq!(occlusion.at(x as f32, y as f32), 2, "({x}, {y})");
@@ -166,11 +166,11 @@ mod tests {
     #[test]
     fn hidden_pixels_are_charged_chance_at_most() {
         let (scale, [still, moving], labels) = made();
-        let occlusion = Occlusion::of(&scale, 0, &[&still, &moving], &labels);
+        let occlusion = Occlusion::of(&scale, 0, [&still, &moving].into_iter(), &labels);
         let chance = Grid::new(64, 48, 3.0);
         let mut costs = Grid::from_fn(64, 48, |_, y| if y == 20 { 1.0 } else { 9.0 });
         let hides = occlusion.excuse(&scale, 0, &still, &chance, &mut costs);
-        assert_eq!(hides, [false, true]);
+        assert_eq!(hides[..2], [false, true]);
         assert_eq!(costs[(42, 18)], 3.0);
         // What fits better than chance keeps its cost, and so does what is seen.
         assert_eq!(costs[(42, 20)], 1.0);

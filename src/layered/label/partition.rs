@@ -11,7 +11,7 @@
 //! least E over all ways to share out their pixels within a band about where they meet is a cheapest cut (`max_flow.rs`),
 //! so that no swap raises E. It stops when no pixel changes, or after so many sweeps over all pairs.
 
-use super::max_flow::{Graph, Node, STEPS};
+use super::max_flow::{Graph, NOWHERE as OUTSIDE, Node, STEPS};
 use crate::grid::Grid;
 
 /// w of straight and diagonal neighbours.
@@ -23,8 +23,6 @@ const LENGTHS: [f32; 2] = [
 const EDGE: f32 = 0.8;
 /// κ: a step in brightness of so many σ spares half of that.
 const STEP: f32 = 4.0;
-/// Not in the graph.
-const OUTSIDE: u32 = u32::MAX;
 
 /// What outlines cost.
 #[derive(Clone, Copy)]

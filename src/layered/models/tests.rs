@@ -8,6 +8,7 @@ fn state() -> State {
         *rho = 1.0 + 0.3 * (0.9 * n as f32).sin();
     }
     State {
+        model: MotionModel::Full,
         translation: DVec3::new(0.02, -0.01, 0.015),
         rotation: turn(DVec3::new(0.01, 0.02, -0.005)),
         surface,
@@ -48,12 +49,12 @@ fn through_a_long_lens_the_mirror_image_moves_alike() {
 
 fn candidate(model: MotionModel, translation: DVec3, score: f64) -> Candidate {
     Candidate {
-        model,
         state: State {
+            model,
             translation,
             ..state()
         },
-        outcome: Outcome::default(),
+        energy: 0.0,
         score,
     }
 }

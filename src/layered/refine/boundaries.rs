@@ -11,7 +11,7 @@
 //! and the candidate of least C is taken. One that is hidden has no brightness to compare; it costs what one does that is
 //! neither right nor wrong.
 
-use super::hidden::{Arrivals, Fate};
+use super::hidden::Arrivals;
 use crate::grid::Grid;
 use crate::layered::scale::Scale;
 use crate::layered::view::View;
@@ -62,13 +62,11 @@ pub fn settle(
             index[(x, y)] = costs.len() as u32;
             costs.push(three.map(|r| {
                 let [tx, ty] = view.target(x, y, r);
-                match arrivals.fate([tx, ty], r, 0.5 * (near - far)) {
-                    Fate::Seen => {
-                        let e = scale.second.at(tx, ty) - first;
-                        e * e / (e * e + cut)
-                    }
-                    Fate::Covered | Fate::Outside => HIDDEN,
+                if !arrivals.sees([tx, ty], r, 0.5 * (near - far)) {
+                    return HIDDEN;
                 }
+                let e = scale.second.at(tx, ty) - first;
+                e * e / (e * e + cut)
             }));
             places.push((x, y));
             values.push(three);

@@ -20,7 +20,6 @@ use super::hidden::{continue_outside, hidden};
 use super::linearisation::Linearisation;
 use super::lines::{Bending, Lines};
 use super::motion_step::motion_step;
-use super::sweep::unit_mean;
 use crate::camera::RigidMotion;
 use crate::grid::Grid;
 use crate::layered::scale::Scale;
@@ -78,12 +77,18 @@ pub fn refine(
         }
         dense.smooth(&view, pixels, between(SMOOTHNESS), between(CREASE));
     }
-    let mut refined = Refined {
-        rho: dense.rho,
-        motion,
-    };
-    unit_mean(&mut refined.rho, support, &mut refined.motion);
-    refined
+    let mut rho = dense.rho;
+    // A mean of 1 over the support, and T with it, which changes no image motion.
+    let owned = rho.data().iter().zip(support.data()).filter(|(_, s)| **s);
+    let (sum, count) = owned.fold((0.0, 0usize), |(sum, n), (&r, _)| {
+        (sum + f64::from(r), n + 1)
+    });
+    let mean = sum / count.max(1) as f64;
+    if mean > 1e-6 {
+        rho.data_mut().iter_mut().for_each(|r| *r /= mean as f32);
+        motion.translation *= mean;
+    }
+    Refined { rho, motion }
 }
 
 /// What a warp works on.
@@ -157,10 +162,10 @@ impl<'a> Dense<'a> {
         let t = view.translation;
         let cut = 1.0 / (CLIP * self.sigma).powi(2);
         let precision = 1.0 / self.sigma.powi(2);
-        let [gx, gy, gz] = &self.compared.gradient;
         let data = self.bending.data.data_mut();
         for (i, (a, pull)) in data.iter_mut().zip(&mut self.pull).enumerate() {
-            let slope = (gx[i] * t[0] + gy[i] * t[1] + gz[i] * t[2]) / pixels;
+            let g = self.compared.gradient[i];
+            let slope = (g[0] * t[0] + g[1] * t[1] + g[2] * t[2]) / pixels;
             let e = self.compared.residual[i];
             let weight = 1.0 / (1.0 + e * e * cut);
             // Where nothing is compared the slope is 0.

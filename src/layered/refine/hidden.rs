@@ -16,17 +16,6 @@ pub struct Arrivals {
     nearest: Grid<f32>,
 }
 
-/// What becomes of a point in the second frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
-    /// It is seen.
-    Seen,
-    /// Something nearer covers it.
-    Covered,
-    /// It leaves the frame.
-    Outside,
-}
-
 impl Arrivals {
     /// Sends every pixel of `support` to its target.
     pub fn new(rho: &Grid<f32>, view: &View, support: &Grid<bool>) -> Self {
@@ -45,13 +34,10 @@ impl Arrivals {
         Self { nearest }
     }
 
-    /// What becomes of a point at inverse depth `rho` that is seen at `target`.
-    pub fn fate(&self, target: [f32; 2], rho: f32, tolerance: f32) -> Fate {
-        match landing(target, self.nearest.width(), self.nearest.height()) {
-            None => Fate::Outside,
-            Some(place) if self.nearest[place] > rho + tolerance => Fate::Covered,
-            Some(_) => Fate::Seen,
-        }
+    /// Whether a point at inverse depth `rho` that goes to `target` is seen there: nothing nearer covers it.
+    pub fn sees(&self, target: [f32; 2], rho: f32, tolerance: f32) -> bool {
+        landing(target, self.nearest.width(), self.nearest.height())
+            .is_some_and(|place| self.nearest[place] <= rho + tolerance)
     }
 }
 
@@ -66,7 +52,7 @@ pub fn hidden(rho: &Grid<f32>, view: &View, support: &Grid<bool>, tolerance: f32
     let arrivals = Arrivals::new(rho, view, support);
     Grid::from_fn(rho.width(), rho.height(), |x, y| {
         let r = rho[(x, y)];
-        support[(x, y)] && arrivals.fate(view.target(x, y, r), r, tolerance) != Fate::Seen
+        support[(x, y)] && !arrivals.sees(view.target(x, y, r), r, tolerance)
     })
 }
 

@@ -17,7 +17,7 @@ pub struct Linearisation {
     /// e in grey levels.
     pub residual: Vec<f32>,
     /// g, grey levels a unit of q.
-    pub gradient: [Vec<f32>; 3],
+    pub gradient: Vec<[f32; 3]>,
     /// Whether the pixel is compared at all.
     pub compared: Vec<bool>,
 }
@@ -27,18 +27,9 @@ impl Linearisation {
     pub fn new(count: usize) -> Self {
         Self {
             residual: vec![0.0; count],
-            gradient: std::array::from_fn(|_| vec![0.0; count]),
+            gradient: vec![[0.0; 3]; count],
             compared: vec![false; count],
         }
-    }
-
-    /// g of pixel i.
-    pub fn gradient_at(&self, i: usize) -> [f32; 3] {
-        [
-            self.gradient[0][i],
-            self.gradient[1][i],
-            self.gradient[2][i],
-        ]
     }
 
     /// Robust standard deviation of e over what is compared.
@@ -63,9 +54,7 @@ impl Linearisation {
                 let i = y * scale.width + x;
                 self.compared[i] = false;
                 self.residual[i] = 0.0;
-                for g in &mut self.gradient {
-                    g[i] = 0.0;
-                }
+                self.gradient[i] = [0.0; 3];
                 if hidden.data()[i] || !support.data()[i] {
                     continue;
                 }
@@ -81,9 +70,7 @@ impl Linearisation {
                 let gy = 0.5 * (gy + scale.gradient[1].data()[i]) * near;
                 self.compared[i] = true;
                 self.residual[i] = grey - scale.first.data()[i];
-                self.gradient[0][i] = gx;
-                self.gradient[1][i] = gy;
-                self.gradient[2][i] = -(gx * q[0] + gy * q[1]) / q[2];
+                self.gradient[i] = [gx, gy, -(gx * q[0] + gy * q[1]) / q[2]];
             }
         }
     }
@@ -92,8 +79,9 @@ impl Linearisation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::camera::Camera;
-    use crate::layered::estimate::{State, Surface, turn};
+    use crate::camera::{Camera, turn};
+    use crate::layered::estimate::{State, Surface};
+    use crate::motion_model::MotionModel;
     use glam::DVec3;
 
     fn wave(x: usize, y: usize) -> f32 {
@@ -105,6 +93,7 @@ mod tests {
     fn derivatives_are_those_of_the_residual() {
         let camera = Camera::centred(60.0, 40, 30).unwrap();
         let state = State {
+            model: MotionModel::Full,
             translation: DVec3::new(0.02, -0.01, 0.03),
             rotation: turn(DVec3::new(0.004, -0.006, 0.01)),
             surface: Surface::default(),
@@ -121,7 +110,7 @@ mod tests {
         };
         let (i, rho) = (14 * 40 + 19, 1.3);
         let here = residual(&state, rho);
-        let g = DVec3::from_array([0, 1, 2].map(|k| 2.0 * f64::from(here.gradient[k][i])));
+        let g = DVec3::from_array(here.gradient[i].map(|g| 2.0 * f64::from(g)));
         let p = DVec3::from_array(state.view(&camera).turned(19, 14).map(f64::from));
         let check = |changed: Linearisation, by: f64, expected: f64| {
             let slope = f64::from(changed.residual[i] - here.residual[i]) / by;

@@ -10,9 +10,8 @@
 //! through the given shifts, one a step: large ones settle fine detail, small ones what is smooth. No step raises the
 //! sum. Where wx and wy are 0, lines are cut.
 
-use wide::f32x8;
-
 use crate::grid::Grid;
+use crate::linalg::dot;
 
 /// The weights of the sum.
 pub struct Bending {
@@ -269,19 +268,7 @@ fn transpose(from: &[f32], to: &mut [f32], width: usize, height: usize) {
 /// Σ a b, in f64 over runs of single precision.
 fn long_dot(a: &[f32], b: &[f32]) -> f64 {
     let runs = a.chunks(1024).zip(b.chunks(1024));
-    runs.map(|(a, b)| f64::from(dot(a, b))).sum()
-}
-
-/// Σ a b.
-fn dot(a: &[f32], b: &[f32]) -> f32 {
-    let (a8, a_rest) = a.as_chunks::<8>();
-    let (b8, b_rest) = b.as_chunks::<8>();
-    let mut sum = f32x8::ZERO;
-    for (a, b) in a8.iter().zip(b8) {
-        sum += f32x8::new(*a) * f32x8::new(*b);
-    }
-    let rest: f32 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sum.reduce_add() + rest
+    runs.map(|(a, b)| dot(a, b)).sum()
 }
 
 #[cfg(test)]

@@ -9,10 +9,10 @@
 //!
 //! |T| stays. Turns of T and ω are in radians; a step is at most 0.05. w = 1/(σ² (1 + e²/4σ²)²).
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 use super::linearisation::Linearisation;
-use crate::camera::RigidMotion;
+use crate::camera::{RigidMotion, omega, turn};
 use crate::grid::Grid;
 use crate::layered::view::View;
 use crate::linalg::{solve, tangents};
@@ -36,9 +36,18 @@ pub fn motion_step(
         return;
     }
     let bases = tangents(motion.translation / length).map(|b| b * length);
-    let rows = Rows {
-        bases: bases.map(single),
-        translation: view.translation,
+    let single = bases.map(|b| b.to_array().map(|v| v as f32));
+    // ∂e/∂ρ, ∂e/∂T along both bases, ∂e/∂ω.
+    let derivatives = |g: [f32; 3], p: [f32; 3], rho: f32| -> [f32; 6] {
+        let dot = |a: [f32; 3]| a[0] * g[0] + a[1] * g[1] + a[2] * g[2];
+        [
+            dot(view.translation),
+            rho * dot(single[0]),
+            rho * dot(single[1]),
+            p[1] * g[2] - p[2] * g[1],
+            p[2] * g[0] - p[0] * g[2],
+            p[0] * g[1] - p[1] * g[0],
+        ]
     };
     let mut normal = [[0.0f64; 6]; 6];
     for top in (0..height).step_by(BLOCK) {
@@ -49,7 +58,7 @@ pub fn motion_step(
                     let i = y * width + x;
                     if compared.compared[i] {
                         let e = compared.residual[i];
-                        let j = rows.at(compared.gradient_at(i), view.turned(x, y), rho.data()[i]);
+                        let j = derivatives(compared.gradient[i], view.turned(x, y), rho.data()[i]);
                         add(&mut m, j, e, sigma);
                     }
                 }
@@ -79,7 +88,7 @@ pub fn motion_step(
         for x in 0..width {
             let i = y * width + x;
             if compared.compared[i] {
-                let j = rows.at(compared.gradient_at(i), view.turned(x, y), rho.data()[i]);
+                let j = derivatives(compared.gradient[i], view.turned(x, y), rho.data()[i]);
                 let change = (0..5).map(|k| j[k + 1] * step[k] as f32).sum::<f32>();
                 compared.residual[i] += change;
             }
@@ -87,33 +96,8 @@ pub fn motion_step(
     }
     let across = bases[0] * step[0] + bases[1] * step[1];
     motion.translation = (motion.translation + across).normalize() * length;
-    let turn = DQuat::from_scaled_axis(DVec3::new(step[2], step[3], step[4]));
-    motion.rotation = (turn * DQuat::from_scaled_axis(motion.rotation)).to_scaled_axis();
-}
-
-fn single(v: DVec3) -> [f32; 3] {
-    v.to_array().map(|v| v as f32)
-}
-
-/// What makes a pixel's derivatives.
-struct Rows {
-    bases: [[f32; 3]; 2],
-    translation: [f32; 3],
-}
-
-impl Rows {
-    /// ∂e/∂ρ, ∂e/∂T along both bases, ∂e/∂ω.
-    fn at(&self, g: [f32; 3], p: [f32; 3], rho: f32) -> [f32; 6] {
-        let dot = |a: [f32; 3]| a[0] * g[0] + a[1] * g[1] + a[2] * g[2];
-        [
-            dot(self.translation),
-            rho * dot(self.bases[0]),
-            rho * dot(self.bases[1]),
-            p[1] * g[2] - p[2] * g[1],
-            p[2] * g[0] - p[0] * g[2],
-            p[0] * g[1] - p[1] * g[0],
-        ]
-    }
+    let turned = turn(DVec3::new(step[2], step[3], step[4])) * motion.matrix();
+    motion.rotation = omega(&turned);
 }
 
 /// Adds a pixel to the lower triangle of its block.

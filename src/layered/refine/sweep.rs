@@ -4,7 +4,7 @@
 //! frame, by half a pixel or so. What a step costs (`volume.rs`) is smoothed by semi-global matching; the best step is taken,
 //! to sub-step by the two lines through its neighbours, then the 3×3 median, and hidden pixels are filled from behind.
 //!
-//! ρ has a mean of 1 over the support, and T is scaled with it. Frames of more than 640×480 pixels are swept at half
+//! ρ belongs to the T given. Frames of more than 640×480 pixels are swept at half
 //! their size: 3 bytes × 64 steps a pixel is the memory that it takes.
 
 use super::hidden::{fill, hidden};
@@ -22,17 +22,6 @@ const LABELS: [usize; 2] = [32, 64];
 const STEPS_A_PIXEL: f32 = 2.0;
 /// Frames with more pixels than this are halved.
 const MOST_PIXELS: usize = 640 * 480;
-
-/// Inverse depth found by a plane sweep.
-#[derive(Clone, Debug)]
-pub struct Sweep {
-    /// ρ; its mean over the support is 1.
-    pub rho: Grid<f32>,
-    /// Pixels of the support that are hidden in the second frame; their ρ comes from behind.
-    pub hidden: Grid<bool>,
-    /// The motion given, |T| being that which belongs to ρ.
-    pub motion: RigidMotion,
-}
 
 /// The range of u that the matches of one motion need, with a margin; |T| is 1. `None` with fewer than eight.
 pub fn match_range(matches: &[Match], found: &EpipolarMotion, camera: &Camera) -> Option<[f32; 2]> {
@@ -54,47 +43,25 @@ pub fn match_range(matches: &[Match], found: &EpipolarMotion, camera: &Camera) -
     Some([low - 0.12 * span, high + 0.25 * span])
 }
 
-/// Sweeps `range` of u for the `motion` of the pixels of `support`. Frames are grey levels of one size.
+/// ρ by a sweep of `range` of u for the `motion` of the pixels of `support`. Frames are grey levels of one size.
 pub fn sweep(
     frames: [&Grid<f32>; 2],
     camera: &Camera,
     motion: &RigidMotion,
     support: &Grid<bool>,
     range: [f32; 2],
-) -> Sweep {
-    let (width, height) = (frames[0].width(), frames[0].height());
-    let mut found = if frames[0].len() > MOST_PIXELS {
-        let small = frames.map(halved);
-        let camera = halved_camera(camera);
-        let mask = Grid::from_fn(width / 2, height / 2, |x, y| support[(2 * x, 2 * y)]);
-        let coarse = sweep_whole([&small[0], &small[1]], &camera, motion, &mask, range);
-        let at = |x: usize, y: usize| ((x / 2).min(width / 2 - 1), (y / 2).min(height / 2 - 1));
-        Sweep {
-            rho: Grid::from_fn(width, height, |x, y| coarse.rho[at(x, y)]),
-            hidden: Grid::from_fn(width, height, |x, y| coarse.hidden[at(x, y)]),
-            motion: *motion,
-        }
-    } else {
-        sweep_whole(frames, camera, motion, support, range)
-    };
-    unit_mean(&mut found.rho, support, &mut found.motion);
-    found
-}
-
-/// Scales ρ to a mean of 1 over the support and T with it, which changes no image motion.
-pub(super) fn unit_mean(rho: &mut Grid<f32>, support: &Grid<bool>, motion: &mut RigidMotion) {
-    let (mut sum, mut count) = (0.0, 0usize);
-    for (&r, &inside) in rho.data().iter().zip(support.data()) {
-        if inside {
-            sum += f64::from(r);
-            count += 1;
-        }
+) -> Grid<f32> {
+    if frames[0].len() <= MOST_PIXELS {
+        return sweep_whole(frames, camera, motion, support, range);
     }
-    let mean = sum / count.max(1) as f64;
-    if mean > 1e-6 {
-        rho.data_mut().iter_mut().for_each(|r| *r /= mean as f32);
-        motion.translation *= mean;
-    }
+    let [width, height] = [frames[0].width(), frames[0].height()];
+    let small = frames.map(halved);
+    let mask = Grid::from_fn(width / 2, height / 2, |x, y| support[(2 * x, 2 * y)]);
+    let camera = halved_camera(camera);
+    let coarse = sweep_whole([&small[0], &small[1]], &camera, motion, &mask, range);
+    Grid::from_fn(width, height, |x, y| {
+        coarse[((x / 2).min(width / 2 - 1), (y / 2).min(height / 2 - 1))]
+    })
 }
 
 fn sweep_whole(
@@ -103,7 +70,7 @@ fn sweep_whole(
     motion: &RigidMotion,
     support: &Grid<bool>,
     [low, high]: [f32; 2],
-) -> Sweep {
+) -> Grid<f32> {
     let (width, height) = (frames[0].width(), frames[0].height());
     let view = View::of(camera, motion);
     let labels = count_labels(&view, width, height, high - low);
@@ -128,11 +95,7 @@ fn sweep_whole(
     let mask = hidden(&raw, &view, support, STEPS_A_PIXEL * step);
     let mut rho = depth(&median3(&best));
     fill(&mut rho, &mask);
-    Sweep {
-        rho,
-        hidden: mask,
-        motion: *motion,
-    }
+    rho
 }
 
 /// Steps such that most pixels move by less than half a pixel a step.

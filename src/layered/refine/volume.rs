@@ -14,6 +14,8 @@ use crate::layered::view::View;
 
 /// Most that brightness costs.
 const MOST: u8 = 18;
+/// Pixels beyond which no place is looked at: 16-bit fractions leave that many.
+const FARTHEST: f32 = 3e4;
 
 /// C of every pixel of `support` for `labels` steps of u from `low` on, pixels in row order.
 pub fn volume(
@@ -35,6 +37,7 @@ pub fn volume(
             .collect::<Vec<i16>>()
     });
     let mut costs = vec![0u8; labels * width * height];
+    let end = [width, height].map(|side| (side as i32 - 1) << 16);
     for y in 0..height {
         for x in 0..width {
             let i = y * width + x;
@@ -43,21 +46,22 @@ pub fn volume(
             }
             let row = &mut costs[i * labels..(i + 1) * labels];
             let (start, speed) = view.line(view.turned(x, y));
-            let line = Line {
-                start: [start[0] + low * speed[0], start[1] + low * speed[1]],
-                step: speed.map(|s| s * step),
-            };
             row.fill(MOST);
-            let Some((first, last)) = line.within(width, height, labels) else {
+            let ends = [0, labels].map(|k| low + step * k as f32);
+            let far = |u: f32, k: usize| (start[k] + u * speed[k]).abs() >= FARTHEST;
+            if ends.iter().any(|&u| far(u, 0) || far(u, 1)) {
                 continue;
-            };
+            }
             // Places have 16 fractional bits.
             let fixed = |v: f32| (v * 65536.0) as i32;
-            let end = [width, height].map(|side| ((side as i32 - 1) << 16) - 1);
-            let mut at = [0, 1].map(|k| fixed(line.start[k] + line.step[k] * first as f32));
-            let by = line.step.map(fixed);
-            for cost in &mut row[first..=last] {
-                let [px, py] = [at[0].clamp(0, end[0]), at[1].clamp(0, end[1])];
+            let mut at = [0, 1].map(|k| fixed(start[k] + low * speed[k]));
+            let by = speed.map(|s| fixed(s * step));
+            for cost in row {
+                let [px, py] = at;
+                at = [px + by[0], py + by[1]];
+                if px < 0 || py < 0 || px >= end[0] || py >= end[1] {
+                    continue;
+                }
                 let (xi, yi) = ((px >> 16) as usize, (py >> 16) as usize);
                 let (tx, ty) = ((px >> 8) & 255, (py >> 8) & 255);
                 let o = yi * width + xi;
@@ -70,7 +74,6 @@ pub fn volume(
                 let nearest = o + (tx >> 7) as usize + (ty >> 7) as usize * width;
                 let differing = (bits[0][i] ^ bits[1][nearest]).count_ones() as i32;
                 *cost = cost_of(difference, differing);
-                at = [at[0] + by[0], at[1] + by[1]];
             }
         }
     }
@@ -81,32 +84,4 @@ pub fn volume(
 fn cost_of(difference: i32, differing: i32) -> u8 {
     let grey = (11 * difference / 16).min(16 * i32::from(MOST));
     ((grey + 24 * differing) / 16) as u8
-}
-
-/// Where a pixel goes, label by label.
-struct Line {
-    start: [f32; 2],
-    step: [f32; 2],
-}
-
-impl Line {
-    /// First and last label whose target lies on the frame.
-    fn within(&self, width: usize, height: usize, labels: usize) -> Option<(usize, usize)> {
-        let (mut first, mut last) = (0.0f32, (labels - 1) as f32);
-        for (k, side) in [width, height].into_iter().enumerate() {
-            let most = side as f32 - 1.002;
-            let (a, s) = (self.start[k], self.step[k]);
-            if s.abs() < 1e-6 {
-                if !(a >= 0.0 && a <= most) {
-                    return None;
-                }
-            } else {
-                let (p, q) = (-a / s, (most - a) / s);
-                first = first.max(p.min(q));
-                last = last.min(p.max(q));
-            }
-        }
-        let (first, last) = (first.ceil(), last.floor());
-        (first <= last).then_some((first as usize, last as usize))
-    }
 }

@@ -1,12 +1,12 @@
 use glam::DVec3;
 
 use super::super::curvature::Prior;
-use super::super::state::turn;
 use super::*;
-use crate::camera::Camera;
-use crate::frames::{Frame, FramePair, Lighting};
+use crate::camera::{Camera, turn};
+use crate::frames::{Frame, FramePair};
 use crate::layered::scale::{Scale, pyramid};
-use crate::options::Diffusion;
+use crate::motion_model::MotionModel;
+use crate::options::{Diffusion, Options};
 
 /// Frames of one surface before and after a motion, and what is true of them.
 pub struct Made {
@@ -46,7 +46,12 @@ impl Made {
         });
         let [first, second] = [first, second].map(|grey| Frame::from_grey(grey).unwrap());
         let pair = FramePair::new(first, second).unwrap();
-        let scale = pyramid(&pair, camera, 0.0, Lighting::default()).swap_remove(0);
+        let plain = Options {
+            smoothing: 0.0,
+            lighting: false,
+            ..Options::default()
+        };
+        let scale = pyramid(&pair, camera, &plain).swap_remove(0);
         let mut surface = Surface::flat(8, &Window::whole(width, height));
         for i in 0..surface.columns {
             for j in 0..surface.rows {
@@ -59,6 +64,7 @@ impl Made {
             scale,
             labels: Grid::new(width, height, 0),
             truth: State {
+                model: MotionModel::Full,
                 translation,
                 rotation,
                 surface,
@@ -91,8 +97,8 @@ impl Made {
                 mu: 100.0,
                 diffusion: Diffusion::Isotropic,
                 epsilon: 1e-3,
+                sigma: 2.0,
             },
-            sigma: 2.0,
         }
     }
 
@@ -227,7 +233,7 @@ fn sums_are_those_of_a_loop_over_pixels() {
             let gx = 0.5 * (gx + f64::from(scale.gradient[0][(x, y)]));
             let gy = 0.5 * (gy + f64::from(scale.gradient[1][(x, y)]));
             let h = focal / q.z * DVec3::new(gx, gy, -(gx * q.x + gy * q.y) / q.z);
-            let square = e * e / f64::from(most_cost(problem.sigma));
+            let square = e * e / f64::from(most_cost(problem.prior.sigma));
             cost += e * e / (1.0 + square);
             let weight = (1.0 + square).powi(-2);
             let by_omega = turned.cross(h);

@@ -2,44 +2,31 @@ use super::super::normal_equations::tests::Made;
 use super::*;
 use crate::options::Diffusion;
 
-const ALL: [Free; 4] = [Free::Depth, Free::Translation, Free::Rotation, Free::Full];
-
 fn energy(made: &Made, state: &State) -> f64 {
     let problem = made.problem(4);
-    let mut equations = NormalEquations::default();
-    equations.gather(&problem, state);
-    outcome_of(&equations, state, &problem.prior, problem.sigma).energy
+    let mut estimator = Estimator::default();
+    estimator.improve(&problem, &mut state.clone(), MotionModel::Still, 0, false)
 }
 
 #[test]
 fn a_step_lowers_the_energy_and_moves_only_what_is_free() {
+    use MotionModel::{Full, Rotation, Still, Translation};
     let made = Made::usual();
     let start = made.off();
-    for free in ALL {
-        let (mut state, mut equations) = (start.clone(), NormalEquations::default());
+    for free in [Still, Translation, Rotation, Full] {
+        // `Still` leaves depth alone free.
+        let mut state = start.clone();
         let problem = made.problem(4);
-        let outcome =
-            Estimator::default().improve(&problem, &mut state, free, 1, &mut equations, false);
+        let told = Estimator::default().improve(&problem, &mut state, free, 1, false);
         let [before, after] = [&start, &state].map(|s| energy(&made, s));
         assert!(after < 0.95 * before, "{free:?}: {after} after {before}");
-        assert!((outcome.energy / after - 1.0).abs() < 1e-6);
+        assert!((told / after - 1.0).abs() < 1e-6);
         let same = |a: DVec3, b: DVec3| (a.normalize() - b.normalize()).length() < 1e-6;
         let turned = (state.omega() - start.omega()).length() > 1e-6;
-        assert_eq!(
-            turned,
-            matches!(free, Free::Rotation | Free::Full),
-            "{free:?}"
-        );
+        assert_eq!(turned, free.rotates(), "{free:?}");
         let headed = !same(state.translation, start.translation);
-        assert_eq!(
-            headed,
-            matches!(free, Free::Translation | Free::Full),
-            "{free:?}"
-        );
-        assert_eq!(
-            state.surface.rho == start.surface.rho,
-            free == Free::Rotation
-        );
+        assert_eq!(headed, free.translates(), "{free:?}");
+        assert_eq!(state.surface.rho == start.surface.rho, free == Rotation);
     }
 }
 
@@ -48,17 +35,10 @@ fn no_number_of_steps_raises_the_energy_and_the_truth_is_found() {
     let made = Made::usual();
     let mut state = made.off();
     let problem = made.problem(4);
-    let (mut estimator, mut equations) = (Estimator::default(), NormalEquations::default());
+    let mut estimator = Estimator::default();
     let mut before = energy(&made, &state);
     for step in 0..12 {
-        estimator.improve(
-            &problem,
-            &mut state,
-            Free::Full,
-            1,
-            &mut equations,
-            step > 0,
-        );
+        estimator.improve(&problem, &mut state, MotionModel::Full, 1, step > 0);
         let after = energy(&made, &state);
         assert!(
             after <= before * (1.0 + 1e-9),
@@ -75,7 +55,9 @@ fn no_number_of_steps_raises_the_energy_and_the_truth_is_found() {
     let off = (state.omega() - truth.omega()).length();
     assert!(off < 1.5e-3, "ω is {off} off");
     // ρ has mean 1 where something is seen.
-    let mean = equations.mean(&state.surface, |n| state.surface.rho[n]);
+    let mean = estimator
+        .equations
+        .mean(&state.surface, |n| state.surface.rho[n]);
     assert!((mean - 1.0).abs() < 1e-3);
 }
 
@@ -88,8 +70,7 @@ fn the_mean_of_depth_goes_to_the_translation() {
         let mut state = made.truth.clone();
         state.surface.rho.iter_mut().for_each(|rho| *rho *= share);
         state.translation /= f64::from(share);
-        let mut equations = NormalEquations::default();
-        Estimator::default().improve(&problem, &mut state, Free::Full, 3, &mut equations, false);
+        Estimator::default().improve(&problem, &mut state, MotionModel::Full, 3, false);
         state
     });
     let ratio = one.translation.length() / other.translation.length();
@@ -106,18 +87,17 @@ fn the_mean_of_depth_goes_to_the_translation() {
 fn a_surfaces_gradient_is_that_of_its_energy() {
     let made = Made::usual();
     let surface = made.off().surface;
-    let sigma = 30.0;
     for diffusion in [Diffusion::Isotropic, Diffusion::Anisotropic] {
         let prior = Prior {
             mu: 5e3,
             diffusion,
             epsilon: 2e-3,
+            sigma: 30.0,
         };
         let mut estimator = Estimator::default();
         let cells = (surface.columns - 1) * (surface.rows - 1);
-        let mut equations = NormalEquations::default();
-        equations.cells.resize(cells, Default::default());
-        estimator.assemble(&equations, &surface, &prior, sigma * sigma);
+        estimator.equations.cells.resize(cells, Default::default());
+        estimator.assemble(&surface, &prior);
         let largest = estimator
             .cross
             .iter()
@@ -127,7 +107,7 @@ fn a_surfaces_gradient_is_that_of_its_energy() {
             let at = |by: f32| {
                 let mut moved = surface.clone();
                 moved.rho[n] += by;
-                surface_energy(&moved, &prior, sigma)
+                surface_energy(&moved, &prior)
             };
             let slope = (at(2e-3) - at(-2e-3)) / (4.0 * 2e-3);
             let own = f64::from(estimator.cross[n][5]);
@@ -147,9 +127,10 @@ fn planes_cost_nothing_and_relief_is_its_variance() {
             surface.rho[node] = 1.0 + 0.1 * i as f32 - 0.05 * j as f32;
         }
     }
-    let prior = made.problem(4).prior;
-    let bent = surface_energy(&made.truth.surface, &prior, 0.0);
-    assert!(surface_energy(&surface, &prior, 0.0) < 1e-6 * bent);
+    let mut prior = made.problem(4).prior;
+    prior.sigma = 0.0;
+    let bent = surface_energy(&made.truth.surface, &prior);
+    assert!(surface_energy(&surface, &prior) < 1e-6 * bent);
     let mut equations = NormalEquations::default();
     equations.gather(&made.problem(0), &made.truth);
     surface.rho.fill(1.0);

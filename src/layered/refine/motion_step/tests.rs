@@ -34,7 +34,7 @@ fn finds_back_to_the_motion() {
         (angle.to_degrees(), (m.rotation - truth.rotation).length())
     };
     let mut motion = truth;
-    motion.translation = DQuat::from_rotation_y(0.06) * motion.translation;
+    motion.translation = glam::DQuat::from_rotation_y(0.06) * motion.translation;
     motion.rotation += DVec3::new(0.0, 0.001, 0.001);
     let length = motion.translation.length();
     let mut compared = Linearisation::new(width * height);

@@ -31,12 +31,11 @@ fn share_right(width: usize, height: usize, support: &Grid<bool>) -> f64 {
         texture(x as f32 + 4.0 * rho(x), y as f32)
     });
     let found = sweep([&first, &second], &camera, &motion, support, [0.0, 3.0]);
-    let length = found.motion.translation.length() * focal;
     let (mut right, mut count) = (0.0, 0.0);
     for y in 4..height - 4 {
         for x in (4..width - 14).filter(|x| x.abs_diff(width / 2) > 10) {
             if support[(x, y)] {
-                let moved = length as f32 * found.rho[(x, y)];
+                let moved = 4.0 * found[(x, y)];
                 right += f64::from(u8::from((moved - 4.0 * rho(x)).abs() < 0.5));
                 count += 1.0;
             }

@@ -1,4 +1,4 @@
-//! The function g that smooths depth, equations (11) and (12), and its diffusivity.
+//! The function g that smooths depth or bends surfaces, equations (11) and (12), and its diffusivity.
 //!
 //! ```text
 //! (11)  g(r) = 2√(1+r²) − 2     g'(r)/r = 2/√(1+r²)     keeps depth edges

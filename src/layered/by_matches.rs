@@ -1,4 +1,4 @@
-//! What matches, which know nothing of labels and depth, say of a result: whether a rigid motion fits a region at all, and
+//! A result judged by matches, which know nothing of labels and depth: whether a rigid motion fits a region at all, and
 //! how far flow is off.
 //!
 //! What a rigid motion carries lies on lines that it lays through the second frame, whatever its depth. A region whose
@@ -12,7 +12,9 @@ use std::rc::Rc;
 
 use super::solver::Layered;
 use crate::camera::{Camera, RigidMotion};
-use crate::init::{Carrier, Match, Sample, Small, epipolar_motion, small_samples};
+use crate::init::{
+    Carrier, MATCH_RADIUS as HALF, Match, Sample, Small, epipolar_motion, small_samples,
+};
 
 /// Share of a region's matches that a rigid motion explains.
 const RIGID: f64 = 0.75;
@@ -20,15 +22,6 @@ const RIGID: f64 = 0.75;
 pub(super) const FEWEST: usize = 40;
 /// Pixels of the frames that matches are of, from which on flow is far from one.
 const FAR: f32 = 1.0;
-/// Half the side of a match's window, pixels.
-const HALF: usize = 4;
-
-/// The matches of a pair, by the region that owns them.
-pub(super) struct Owned {
-    pub camera: Camera,
-    /// Matches whose windows lie in a region, of each.
-    pub samples: Vec<Vec<Sample>>,
-}
 
 impl Layered {
     /// Matches between the frames, halved where they are large.
@@ -38,8 +31,8 @@ impl Layered {
         self.small.get_or_insert_with(small).clone()
     }
 
-    /// Which region owns which match, by the labels as they are.
-    pub(super) fn owned_matches(&mut self) -> Owned {
+    /// The matches whose windows lie in a region, of each, by the labels as they are; and the camera that sees them.
+    pub(super) fn owned_matches(&mut self) -> (Vec<Vec<Sample>>, Camera) {
         let small = self.small();
         let (labels, [width, height]) = (&self.labels, small.size);
         let label = |x: usize, y: usize| {
@@ -59,15 +52,12 @@ impl Layered {
                 samples[usize::from(own)].push(*sample);
             }
         }
-        Owned {
-            camera: small.camera,
-            samples,
-        }
+        (samples, small.camera)
     }
 
     /// Says of each region whether a rigid motion fits it.
     pub(super) fn judge_rigidity(&mut self) {
-        let Owned { camera, samples } = self.owned_matches();
+        let (samples, camera) = self.owned_matches();
         for (region, own) in self.regions.iter_mut().zip(&samples) {
             region.rigid = own.len() < FEWEST || {
                 let explained =
