@@ -1,8 +1,8 @@
 //! The motion of the background.
 //!
 //! Most of the matches along the frame's border decide whether the camera stands still or turns: they have to be
-//! explained to within their uncertainty then. Otherwise the full motion is sought from all matches and from the segment that holds most of the border, each time
-//! anew from the segments that it explains; the motion that explains more of the frame stays.
+//! explained to within their uncertainty then. Otherwise the full motion is sought from all matches, each time anew from
+//! the segments that it explains; the motion that explains most of the frame stays.
 
 use glam::DVec3;
 
@@ -65,31 +65,19 @@ pub fn background(
     if fits(&turned, TURNED) {
         return Some((turned, false));
     }
-    let mut held = vec![0usize; segments.count];
-    for (sample, segment) in samples.iter().zip(&segments.of) {
-        if let Some(s) = segment.filter(|_| on_border(sample, size)) {
-            held[s] += 1;
-        }
-    }
-    let outer = (0..segments.count).max_by_key(|&s| held[s])?;
-    let of_outer = |k: &usize| segments.of[*k] == Some(outer);
-    let outer: Vec<usize> = (0..samples.len()).filter(of_outer).collect();
-    let everything: Vec<usize> = (0..samples.len()).collect();
+    let mut chosen: Vec<usize> = (0..samples.len()).collect();
     let mut best: Option<(usize, RigidMotion)> = None;
-    for start in [everything, outer] {
-        let mut chosen = start;
-        for _ in 0..=ROUNDS {
-            let Some(motion) = full(samples, &chosen, camera) else {
-                break;
-            };
-            let motion = ahead(samples, motion, camera);
-            chosen = carried(samples, segments, &motion, camera);
-            if best.is_none_or(|(count, _)| chosen.len() > count) {
-                best = Some((chosen.len(), motion));
-            }
-            if chosen.len() as f64 > PLENTY * samples.len() as f64 {
-                return Some((motion, true));
-            }
+    for _ in 0..=ROUNDS {
+        let Some(motion) = full(samples, &chosen, camera) else {
+            break;
+        };
+        let motion = ahead(samples, motion, camera);
+        chosen = carried(samples, segments, &motion, camera);
+        if best.is_none_or(|(count, _)| chosen.len() > count) {
+            best = Some((chosen.len(), motion));
+        }
+        if chosen.len() as f64 > PLENTY * samples.len() as f64 {
+            break;
         }
     }
     best.map(|(_, motion)| (motion, true))

@@ -3,15 +3,14 @@
 //! 1. [`background`] finds the motion that explains most of the border or of the frame.
 //! 2. A segment of continuous flow may be a body when that motion explains less than [`CARRIED`] of its matches, or leaves
 //!    more of them on the median than of the others.
-//! 3. [`joined`] joins what one rigid motion carries across gaps in the texture.
 //!
 //! What moves as the background would at another depth cannot be told from scenery.
 
 use super::background::{CARRIED, background};
 use super::epipolar::{FEWEST, median};
+use super::field::field;
 use super::lattice::Lattice;
 use super::outline::at_pixels;
-use super::pieces::{field, joined};
 use super::sample::{Carrier, EXPLAINED, small_samples};
 use super::segments::segments;
 use crate::camera::Camera;
@@ -58,9 +57,8 @@ pub(crate) fn candidates(pair: &FramePair, camera: &Camera) -> Option<Candidates
     let mut pieces = segments.members(|s| shares[s] <= CARRIED || middles[s] > usual);
     pieces.retain(|piece| 2 * piece.len() < samples.len());
     pieces.retain(|piece| piece.len() >= FEWEST);
-    let mut found = joined(pieces, &samples, &lattice, &camera);
-    found.retain(|piece| piece.len() >= fewest);
-    found = ordered(found, |piece| -(piece.len() as f64));
+    pieces.retain(|piece| piece.len() >= fewest);
+    let mut found = ordered(pieces, |piece| -(piece.len() as f64));
     found.truncate(MOST);
     let level_set = |body: &Vec<usize>| at_pixels(&field(body, &samples, &lattice), size);
     Some(Candidates {

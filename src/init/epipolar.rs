@@ -33,8 +33,8 @@ const REFINED: usize = 6;
 const SAME_DIRECTION: f64 = 0.95;
 /// Matches used for the directions.
 const SAMPLE: usize = 500;
-/// Scales of the weights in pixels for the directions, one an iteration.
-const SCALES: [f64; 4] = [8.0, 3.0, 1.5, 1.5];
+/// Scales of the weights in pixels, one an iteration.
+pub const SCALES: [f64; 4] = [8.0, 3.0, 1.5, 1.5];
 /// Gauss–Newton steps.
 const STEPS: usize = 11;
 /// Fewest matches that determine a motion.

@@ -1,19 +1,16 @@
 //! The rotation that explains most matches by itself, T = 0.
 //!
 //! ```text
-//! minimise  Σ w |π(R p) − q|²        R ← exp([δ]×) R        w = 1/(1 + |e|²/s²)²,  s = 8, 3, 1, 1, 0.7, 0.7 px
+//! minimise  Σ w |π(R p) − q|²        R ← exp([δ]×) R        w = 1/(1 + |e|²/s²)²,  s = 8, 3, 1.5, … px, as in [`SCALES`]
 //! ```
 //!
 //! p and q are the rays of a match in the first and the second frame, π the projection. Radians and pixels.
 
 use glam::{DMat3, DVec3};
 
-use super::epipolar::{Pair, median};
+use super::epipolar::{Pair, SCALES, median};
 use crate::camera::{omega, turn};
 use crate::linalg::solve;
-
-/// Scales of the weights in pixels, one an iteration.
-const SCALES: [f64; 6] = [8.0, 3.0, 1.0, 1.0, 0.7, 0.7];
 
 /// ω and the median of what it leaves, in pixels. `focal` in pixels.
 pub fn rotation_alone(pairs: &[Pair], focal: f64) -> (DVec3, f64) {
