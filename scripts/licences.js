@@ -112,9 +112,17 @@ const read = (path) =>
     .replaceAll(/[ \t]+$/gm, "")
     .trim();
 
-/** The text of the file, as it should be. */
-export function licences() {
-  const parts = [...crates(), ...bundled()];
+/** Of the page and its WebAssembly: the text of the file, as it should be. */
+export const licences = () => listed([...crates(), ...bundled()], "its WebAssembly and its page");
+
+/** Of the WebAssembly alone. */
+export const licencesOfCore = () => listed(crates(), "its WebAssembly");
+
+/**
+ * @param {Part[]} parts
+ * @param {string} where they are
+ */
+function listed(parts, where) {
   parts.sort((a, b) => (a.name < b.name ? -1 : a.name > b.name ? 1 : 0));
   /** @type {Map<string, Part[]>} */
   const byText = new Map();
@@ -123,7 +131,7 @@ export function licences() {
     const heads = group.map(({ name, version, licence }) => `${name} ${version} (${licence})`);
     return `${"=".repeat(79)}\n${heads.join("\n")}\n${"=".repeat(79)}\n\n${text}\n`;
   });
-  return `Relievo is under MIT or Apache 2.0, as you like. Inside its WebAssembly and its page there are also
+  return `Relievo is under MIT or Apache 2.0, as you like. Inside ${where} there are also
 ${parts.map(({ name, version, licence }) => `  ${name} ${version} (${licence})`).join("\n")}
 under the licences that follow. Made by npm run licences.
 

@@ -3,12 +3,13 @@
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
+import { licencesOfCore } from "./licences.js";
 import { ifMain, root, run, Trouble } from "./shell.js";
 import { setup } from "./setup.js";
 import { wasm } from "./wasm.js";
 
 /** Bytes that the packed package may have. */
-export const LARGEST = 960_000;
+export const LARGEST = 830_000;
 
 /** What of package.json others need. */
 const KEYS = [
@@ -29,16 +30,16 @@ const KEYS = [
 const FILES = {
   cli: "cli",
   "cli/README.md": "README.md",
-  "pkg/relievo.js": "pkg/relievo.js",
   "pkg/relievo.d.ts": "pkg/relievo.d.ts",
   "pkg/relievo_bg.wasm": "pkg/relievo_bg.wasm",
-  "pkg/relievo_decoders.js": "pkg/relievo_decoders.js",
   "pkg/relievo_decoders_bg.wasm": "pkg/relievo_decoders_bg.wasm",
   "CHANGELOG.md": "CHANGELOG.md",
   "LICENSE-APACHE": "LICENSE-APACHE",
   "LICENSE-MIT": "LICENSE-MIT",
-  "www/public/licences.txt": "licences.txt",
 };
+
+/** Generated modules, which go in without their comments: those are in the types as well. */
+const GLUE = ["pkg/relievo.js", "pkg/relievo_decoders.js"];
 
 /** Assembles and packs; the path of the packed file. */
 export async function pack() {
@@ -49,6 +50,11 @@ export async function pack() {
     cpSync(join(root, from), join(folder, to), { recursive: true });
   }
   rmSync(join(folder, "cli/README.md"));
+  for (const name of GLUE) {
+    const text = readFileSync(join(root, name), "utf8");
+    writeFileSync(join(folder, name), text.replaceAll(/^ *\/\*\*[^]*?\*\/\n/gm, ""));
+  }
+  writeFileSync(join(folder, "licences.txt"), licencesOfCore());
   const all = JSON.parse(readFileSync(join(root, "package.json"), "utf8"));
   const own = Object.fromEntries(KEYS.map((key) => [key, all[key]]));
   writeFileSync(join(folder, "package.json"), `${JSON.stringify(own, null, 2)}\n`);

@@ -78,6 +78,7 @@ pub mod grid;
 pub mod horn_schunck;
 pub mod init;
 pub mod interpretation;
+mod json;
 mod layered;
 mod linalg;
 mod motion_model;

@@ -14,6 +14,7 @@ use crate::error::Error;
 use crate::file::parts::Parts;
 use crate::grid::Grid;
 use crate::interpretation::{Flow, Interpretation};
+use crate::ordered::ordered;
 
 /// Distances between an interpretation and the truth. Lists have an entry for each region of the
 /// truth, the background first; an entry is null where there is nothing to compare.
@@ -382,8 +383,7 @@ fn is_depth(depth: f64) -> bool {
 /// a = median(Z/Ẑ) over the pairs (Ẑ, Z) of which Ẑ was found; `None` where there are none.
 fn factor(pairs: &[(f64, f64)]) -> Option<f64> {
     let known = pairs.iter().filter(|(depth, _)| is_depth(*depth));
-    let mut ratios: Vec<f64> = known.map(|(depth, z)| z / depth).collect();
-    ratios.sort_unstable_by(f64::total_cmp);
+    let ratios = ordered(known.map(|(depth, z)| z / depth).collect(), |&ratio| ratio);
     let middle = ratios.len() / 2;
     match ratios.len() {
         0 => None,

@@ -6,10 +6,12 @@
 //! downwards, outer curves run clockwise and holes counter-clockwise, the inside on the right.
 
 use serde::Serialize;
-use std::collections::HashMap;
 
 use crate::grid::Grid;
 use crate::ordered::ordered;
+
+/// From an edge's number to that of the edge below it; more than twice the longest side of a frame.
+const ROW: f64 = 65_536.0;
 
 /// A sub-pixel polyline around (a part of) a region.
 ///
@@ -68,8 +70,7 @@ pub fn contours(level_set: &Grid<f32>, label: u8) -> Vec<Contour> {
         let inside = x >= 0 && y >= 0 && x < width as isize && y < height as isize;
         if inside { value } else { -value.abs() }
     };
-    let mut next: HashMap<Edge, Edge> = HashMap::new();
-    let mut starts = Vec::new();
+    let mut steps = Vec::new();
     for y in 0..=height {
         for x in 0..=width {
             let corners = [phi(x, y), phi(x + 1, y), phi(x + 1, y + 1), phi(x, y + 1)];
@@ -80,18 +81,25 @@ pub fn contours(level_set: &Grid<f32>, label: u8) -> Vec<Contour> {
                     2 => Edge::across(x, y + 1),
                     _ => Edge::down(x, y),
                 };
-                starts.push(edge(from));
-                next.insert(edge(from), edge(to));
+                steps.push((edge(from), edge(to)));
             }
         }
     }
+    // To be found by the edge that a step comes from.
+    let sorted = ordered(steps.clone(), |(from, _)| from.number());
+    let place = |edge: Edge| {
+        let by_number = |(from, _): &(Edge, Edge)| from.number().total_cmp(&edge.number());
+        sorted.binary_search_by(by_number).ok()
+    };
+    let mut taken = vec![false; sorted.len()];
     let mut found = Vec::new();
-    for start in starts {
+    for (start, _) in steps {
         let mut points = Vec::new();
         let mut edge = start;
-        while let Some(following) = next.remove(&edge) {
+        while let Some(at) = place(edge).filter(|&at| !taken[at]) {
+            taken[at] = true;
             points.push(edge.crossing(&phi));
-            edge = following;
+            edge = sorted[at].1;
         }
         if points.len() > 2 {
             found.push(Contour {
@@ -105,7 +113,7 @@ pub fn contours(level_set: &Grid<f32>, label: u8) -> Vec<Contour> {
 }
 
 /// The line between two neighbouring pixels of the padded level set.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy)]
 struct Edge {
     x: u32,
     y: u32,
@@ -126,6 +134,12 @@ impl Edge {
             down: true,
             ..Self::across(x, y)
         }
+    }
+
+    /// Its own, in the order of rows.
+    fn number(self) -> f64 {
+        let [x, y] = [self.x, self.y].map(f64::from);
+        y * ROW + 2.0 * x + f64::from(u8::from(self.down))
     }
 
     fn crossing(self, phi: &impl Fn(usize, usize) -> f32) -> [f32; 2] {

@@ -6,6 +6,7 @@
 //! the sides that may still be nearest; what is found is the same to the last bit.
 
 use crate::grid::Grid;
+use crate::ordered::ordered;
 use crate::window::Window;
 
 type Point = [f64; 2];
@@ -51,8 +52,8 @@ pub(super) fn level_set(corners: &[Point], width: usize, height: usize) -> Grid<
     let all: Vec<[Point; 2]> = sides(corners).collect();
     nearest(&all, Window::whole(width, height), &mut phi);
     for y in 0..height {
-        let mut beyond: Vec<f64> = all.iter().filter_map(|&s| crossing(s, y as f64)).collect();
-        beyond.sort_unstable_by(f64::total_cmp);
+        let beyond: Vec<f64> = all.iter().filter_map(|&s| crossing(s, y as f64)).collect();
+        let beyond = ordered(beyond, |&at| at);
         let mut passed = 0;
         for x in 0..width {
             while beyond.get(passed).is_some_and(|&at| at <= x as f64) {

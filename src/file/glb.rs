@@ -15,12 +15,49 @@ use crate::grid::Grid;
 use crate::srgb;
 use crate::view::Mesh;
 
-/// Opacity of what is of unknown depth.
-const GHOST: f32 = 0.22;
 /// Which of [`Mesh::parts`] has colours of its own.
 const HIDDEN: usize = 1;
-/// How matt surfaces are, 0–1.
-const ROUGHNESS: f32 = 0.92;
+
+/// What is the same in every file. Surfaces are matt, and what is of unknown depth is seen through; the texture is
+/// sampled linearly, with mipmaps, and not repeated at the frame's border.
+const SCENE: &str = r#"{
+    "asset": { "version": "2.0", "generator": "Relievo" },
+    "scene": 0,
+    "scenes": [{ "nodes": [0] }],
+    "nodes": [{ "name": "relief", "mesh": 0 }],
+    "meshes": [{ "name": "relief" }],
+    "materials": [
+        {
+            "name": "seen",
+            "doubleSided": true,
+            "pbrMetallicRoughness": {
+                "baseColorTexture": { "index": 0 },
+                "metallicFactor": 0,
+                "roughnessFactor": 0.92
+            }
+        },
+        {
+            "name": "hidden behind",
+            "doubleSided": true,
+            "pbrMetallicRoughness": { "metallicFactor": 0, "roughnessFactor": 0.92 }
+        },
+        {
+            "name": "of unknown depth",
+            "doubleSided": true,
+            "alphaMode": "BLEND",
+            "pbrMetallicRoughness": {
+                "baseColorTexture": { "index": 0 },
+                "baseColorFactor": [1, 1, 1, 0.22],
+                "metallicFactor": 0,
+                "roughnessFactor": 0.92
+            }
+        }
+    ],
+    "textures": [{ "source": 0, "sampler": 0 }],
+    "samplers": [{ "magFilter": 9729, "minFilter": 9987, "wrapS": 33071, "wrapT": 33071 }],
+    "images": [{ "name": "frame", "mimeType": "image/png" }],
+    "buffers": [{}]
+}"#;
 
 // What glTF calls types of numbers and targets of buffers.
 const U16: u32 = 5123;
@@ -82,7 +119,7 @@ pub fn write(mesh: &Mesh, texture: &Grid<[u8; 3]>) -> Result<Vec<u8>, Error> {
         primitives.push(json!({ "attributes": attributes, "indices": indices, "material": piece }));
     }
     let image = file.view(&png::write_rgb(texture)?, None);
-    Ok(file.close(&primitives, image))
+    Ok(file.close(primitives, image))
 }
 
 /// What the file is made of so far.
@@ -151,50 +188,13 @@ impl File {
         number
     }
 
-    fn close(self, primitives: &[Value], image: usize) -> Vec<u8> {
-        let matt = |mut more: Value| {
-            more["metallicFactor"] = json!(0);
-            more["roughnessFactor"] = json!(ROUGHNESS);
-            more
-        };
-        let texture = json!({ "index": 0 });
-        let text = json!({
-            "asset": { "version": "2.0", "generator": "Relievo" },
-            "scene": 0,
-            "scenes": [{ "nodes": [0] }],
-            "nodes": [{ "name": "relief", "mesh": 0 }],
-            "meshes": [{ "name": "relief", "primitives": primitives }],
-            "materials": [
-                {
-                    "name": "seen",
-                    "doubleSided": true,
-                    "pbrMetallicRoughness": matt(json!({ "baseColorTexture": texture })),
-                },
-                {
-                    "name": "hidden behind",
-                    "doubleSided": true,
-                    "pbrMetallicRoughness": matt(json!({})),
-                },
-                {
-                    "name": "of unknown depth",
-                    "doubleSided": true,
-                    "alphaMode": "BLEND",
-                    "pbrMetallicRoughness": matt(json!({
-                        "baseColorTexture": texture,
-                        "baseColorFactor": [1, 1, 1, GHOST],
-                    })),
-                },
-            ],
-            "textures": [{ "source": 0, "sampler": 0 }],
-            // Linear, mipmaps, and no repetition at the frame's border.
-            "samplers": [
-                { "magFilter": 9729, "minFilter": 9987, "wrapS": 33071, "wrapT": 33071 },
-            ],
-            "images": [{ "name": "frame", "bufferView": image, "mimeType": "image/png" }],
-            "bufferViews": self.views,
-            "accessors": self.accessors,
-            "buffers": [{ "byteLength": self.binary.len() }],
-        });
+    fn close(self, primitives: Vec<Value>, image: usize) -> Vec<u8> {
+        let mut text: Value = serde_json::from_str(SCENE).expect("it is JSON");
+        text["meshes"][0]["primitives"] = primitives.into();
+        text["images"][0]["bufferView"] = image.into();
+        text["bufferViews"] = self.views.into();
+        text["accessors"] = self.accessors.into();
+        text["buffers"][0]["byteLength"] = self.binary.len().into();
         let mut text = text.to_string().into_bytes();
         pad(&mut text, b' ');
         let length = 12 + 8 + text.len() + 8 + self.binary.len();

@@ -15,7 +15,7 @@ const COLOUR: usize = 25;
 /// The name by which [`Parts::read`](super::parts::Parts::read) takes a file; `None` where it is something else. Of a file
 /// that is `said` to be of a result or a truth only the format is asked.
 pub fn kind_of(name: &str, bytes: &[u8], said: bool) -> Option<&'static str> {
-    let name = name.to_lowercase();
+    let name = name.to_ascii_lowercase();
     let inverse = name.contains("disp");
     if bytes.starts_with(b"PIEH") {
         return Some("flow.flo");

@@ -6,6 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::camera::RigidMotion;
 use crate::error::Error;
+use crate::json;
 use crate::motion_model::MotionModel;
 
 /// The contents of motion.json.
@@ -107,10 +108,7 @@ impl MotionFile {
     /// # Errors
     /// [`Error::Json`] for anything else.
     pub fn read(text: &str) -> Result<Self, Error> {
-        serde_json::from_str(text).map_err(|e| Error::Json {
-            what: "motion.json",
-            reason: e.to_string(),
-        })
+        json::read(text, "motion.json")
     }
 }
 

@@ -58,10 +58,7 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Grid<f32>, Error> {
     let (width, height) = (side()?, side()?);
     let (width, height) = bounded(name, FORMAT, width, height)?;
     let (scale, data_at) = word();
-    let little = match scale.parse::<f32>() {
-        Ok(s) if s.is_finite() && s != 0.0 => s < 0.0,
-        _ => return Err(wrong(format!("{scale:?} is no scale"))),
-    };
+    let little = little_endian(&scale).ok_or_else(|| wrong(format!("{scale:?} is no scale")))?;
     let data = bytes.get(data_at..).unwrap_or_default();
     let expected = 4 * width * height;
     if data.len() != expected {
@@ -80,4 +77,33 @@ pub fn read(bytes: &[u8], name: &str) -> Result<Grid<f32>, Error> {
         }
     };
     Ok(Grid::from_fn(width, height, value))
+}
+
+/// Whether the lowest byte comes first, by the sign of a decimal number; `None` of a word that is none, or of 0.
+fn little_endian(scale: &str) -> Option<bool> {
+    let size = scale.strip_prefix(['-', '+']).unwrap_or(scale);
+    let (number, exponent) = size.split_once(['e', 'E']).unwrap_or((size, "0"));
+    exponent.parse::<i32>().ok()?;
+    let (whole, part) = number.split_once('.').unwrap_or((number, ""));
+    let digits = || whole.bytes().chain(part.bytes());
+    let known = digits().all(|d| d.is_ascii_digit()) && digits().any(|d| d != b'0');
+    known.then(|| scale.starts_with('-'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::little_endian;
+
+    #[test]
+    fn the_sign_of_the_scale_tells_the_order_of_bytes() {
+        for scale in ["-1", "-1.0", "-0.003922", "-.5", "-2.", "-1e-3", "-1.5E+2"] {
+            assert_eq!(little_endian(scale), Some(true), "{scale}");
+            assert_eq!(little_endian(&scale[1..]), Some(false), "{scale}");
+        }
+        for scale in [
+            "", "-", ".", "0", "-0.0", "1e", "1e1.5", "--1", "1.2.3", "one", "nan", "inf",
+        ] {
+            assert_eq!(little_endian(scale), None, "{scale}");
+        }
+    }
 }

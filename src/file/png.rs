@@ -47,7 +47,12 @@ pub fn write_grey16(values: &Grid<u16>) -> Result<Vec<u8>, Error> {
     let bytes: Vec<u8> = (values.data().iter())
         .flat_map(|value| value.to_be_bytes())
         .collect();
-    encode_as(values, &bytes, ColorType::Grayscale, BitDepth::Sixteen)
+    encode_as(
+        size_of(values),
+        &bytes,
+        ColorType::Grayscale,
+        BitDepth::Sixteen,
+    )
 }
 
 /// Reads labels. `name` is what error messages call the file.
@@ -202,18 +207,22 @@ pub(crate) fn palette_breaks_off(bytes: &[u8]) -> bool {
 }
 
 fn encode<T: Copy>(grid: &Grid<T>, bytes: &[u8], colour: ColorType) -> Result<Vec<u8>, Error> {
-    encode_as(grid, bytes, colour, BitDepth::Eight)
+    encode_as(size_of(grid), bytes, colour, BitDepth::Eight)
 }
 
-fn encode_as<T: Copy>(
-    grid: &Grid<T>,
+fn size_of<T: Copy>(grid: &Grid<T>) -> (u32, u32) {
+    (grid.width() as u32, grid.height() as u32)
+}
+
+fn encode_as(
+    (width, height): (u32, u32),
     bytes: &[u8],
     colour: ColorType,
     depth: BitDepth,
 ) -> Result<Vec<u8>, Error> {
     let wrong = |e: png::EncodingError| unreadable("the picture", "PNG", e.to_string());
     let mut out = Vec::new();
-    let mut encoder = png::Encoder::new(&mut out, grid.width() as u32, grid.height() as u32);
+    let mut encoder = png::Encoder::new(&mut out, width, height);
     encoder.set_color(colour);
     encoder.set_depth(depth);
     encoder.set_compression(Compression::Fast);

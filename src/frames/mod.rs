@@ -3,6 +3,7 @@
 mod absent;
 mod apng;
 mod derivatives;
+mod exif;
 mod fields;
 mod film;
 mod frame;

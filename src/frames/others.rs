@@ -57,7 +57,7 @@ pub(crate) fn unpack(bytes: &[u8], name: &str) -> Result<Raw, Error> {
     let exif = decoder.exif_metadata().ok().flatten();
     let upright = decoder.orientation().map_err(refuse)?;
     let picture = DynamicImage::from_decoder(decoder).map_err(refuse)?;
-    let lens = exif.and_then(|exif| Lens::of_exif(exif, width as usize, height as usize));
+    let lens = exif.and_then(|exif| Lens::of_exif(&exif, width as usize, height as usize));
     Ok(Raw {
         orientation: upright.to_exif(),
         lens,
@@ -91,12 +91,12 @@ fn read_jpeg(bytes: &[u8], name: &str) -> Result<Raw, Error> {
     };
     decoder.set_options(options.jpeg_set_out_colorspace(colours));
     let data = decoder.decode().map_err(refuse)?;
-    let exif = decoder.exif().cloned();
+    let exif = decoder.exif().map(Vec::as_slice);
     Ok(Raw {
         size,
         channels,
         samples: Samples::Bytes(data),
-        orientation: exif.clone().map_or(UPRIGHT, orientation),
+        orientation: exif.map_or(UPRIGHT, orientation),
         lens: exif.and_then(|exif| Lens::of_exif(exif, size.0, size.1)),
     })
 }
@@ -108,7 +108,7 @@ fn first_page(bytes: &[u8], name: &str) -> Result<Raw, Error> {
     let (width, height) = (width as usize, height as usize);
     check_size(name, width, height)?;
     Ok(Raw {
-        lens: Lens::of_tiff(bytes, width, height),
+        lens: Lens::of_exif(bytes, width, height),
         ..pages.read().map_err(refuse)?
     })
 }

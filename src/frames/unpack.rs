@@ -75,8 +75,8 @@ fn read_png(bytes: &[u8], name: &str) -> Result<Raw, Error> {
             png::Samples::Bytes(data) => Samples::Bytes(data),
             png::Samples::Words(data) => Samples::Words(data),
         },
-        orientation: (exif.as_ref()).map_or(UPRIGHT, |exif| orientation(exif.clone())),
-        lens: exif.and_then(|exif| Lens::of_exif(exif, size.0, size.1)),
+        orientation: exif.as_deref().map_or(UPRIGHT, orientation),
+        lens: exif.and_then(|exif| Lens::of_exif(&exif, size.0, size.1)),
     })
 }
 

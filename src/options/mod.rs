@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::error::Error;
+use crate::json;
 
 /// Curves that may be drawn at most; with the background that makes eight regions.
 pub const MAX_CURVES: usize = 7;
@@ -190,11 +191,7 @@ impl Options {
     /// [`Error::Json`] when the text is no JSON object, [`Error::Choice`] for a key or a choice that
     /// does not exist, [`Error::Option`] and [`Error::Count`] for a number outside its range.
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        let unreadable = |e: serde_json::Error| Error::Json {
-            what: "options",
-            reason: e.to_string(),
-        };
-        let given: Map<String, Value> = serde_json::from_str(text).map_err(unreadable)?;
+        let given: Map<String, Value> = json::read(text, "options")?;
         let preset = match given.get("preset") {
             None => Preset::default(),
             Some(value) => serde_json::from_value(value.clone())
@@ -207,7 +204,7 @@ impl Options {
                 all.insert(key, value);
             }
         }
-        serde_json::from_value(Value::Object(all)).map_err(unreadable)
+        Self::deserialize(Value::Object(all)).map_err(|e| json::unreadable(e, "options"))
     }
 
     /// Checks every setting against its range.

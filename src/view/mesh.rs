@@ -6,7 +6,7 @@
 //! equal, so that a circle ends on a circle. What goes on behind (`behind.rs`) is a surface of its own, darker. Regions of
 //! unknown depth are kept apart, to be shown as ghosts or left out.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 use glam::{Vec2, Vec3};
 
@@ -90,7 +90,7 @@ pub fn mesh(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Mesh 
         layers: &layers,
         mesh: Mesh::default(),
         triangles: Default::default(),
-        cuts: HashMap::new(),
+        cuts: BTreeMap::new(),
         sources: Vec::new(),
     };
     let corners = builder.see(&columns, &rows);
@@ -125,7 +125,7 @@ struct Builder<'a> {
     /// Of what is seen, of what is hidden, and of ghosts.
     triangles: [Vec<u32>; 3],
     /// The vertex on the line from one vertex to another, on the former's side of the cut.
-    cuts: HashMap<(u32, u32), u32>,
+    cuts: BTreeMap<(u32, u32), u32>,
     /// The vertex of the grid that each vertex on a cut belongs to.
     sources: Vec<(u32, u32)>,
 }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, within};
+use crate::json;
 
 /// One of several things to choose from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -117,10 +118,7 @@ impl ViewParams {
     /// # Errors
     /// [`Error::Json`] when it is no JSON object of such settings, [`Error::Option`] for one out of range.
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        let params: Self = serde_json::from_str(text).map_err(|e| Error::Json {
-            what: "view settings",
-            reason: e.to_string(),
-        })?;
+        let params: Self = json::read(text, "view settings")?;
         params.check()?;
         Ok(params)
     }

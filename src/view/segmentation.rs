@@ -37,11 +37,8 @@ pub fn segmentation(
     };
     // About two pixels on a small frame, thicker where a screen would shrink the picture.
     let radius = (width.min(height) as f32 / 480.0).clamp(1.0, 4.0);
-    let mut present: Vec<u8> = contours.iter().map(|c| c.label).collect();
-    present.sort_unstable();
-    present.dedup();
-    let lines: Vec<(u8, Grid<f32>)> = present
-        .into_iter()
+    let lines: Vec<(u8, Grid<f32>)> = (0..=u8::MAX)
+        .filter(|&label| contours.iter().any(|c| c.label == label))
         .map(|label| {
             let of_label = contours.iter().filter(|c| c.label == label);
             let segments = of_label.flat_map(|c| segments(c, m as f32));

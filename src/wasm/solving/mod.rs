@@ -43,6 +43,7 @@ use wasm_bindgen::{JsCast, JsValue};
 use crate::Error;
 use crate::curves::Contour;
 use crate::interpretation::Interpretation;
+use crate::json;
 use crate::view::{self, ViewParams};
 
 #[wasm_bindgen]
@@ -94,10 +95,7 @@ impl Json {
 
     /// The value of type T that it stands for.
     fn read<T: DeserializeOwned>(&self, what: &'static str) -> Result<T, Error> {
-        serde_json::from_str(&self.text(what)?).map_err(|e| Error::Json {
-            what,
-            reason: e.to_string(),
-        })
+        json::read(&self.text(what)?, what)
     }
 }
 
