@@ -8,16 +8,16 @@ export const frames = {
   use: "Use them",
   discard: "Discard",
   bring:
-    "Bring your own: two pictures taken shortly after each other, or a clip, an animation or the camera to choose them from. Choose, drop or paste.",
+    "Open two pictures that were taken shortly after each other. Or choose two frames of a clip, of an animation or from the camera. You can also drop or paste files.",
   missing: (which: 0 | 1, stage: string) =>
-    `The ${which === 0 ? "first" : "second"} frame is still missing. Until it is there, the stage keeps ${stage || "what it shows"}.`,
+    `The ${which === 0 ? "first" : "second"} frame is still missing. Until then, ${stage ? `“${stage}”` : "the present pair"} stays open.`,
   inUse: (truth: string) =>
-    `These are your frames. Draw or find a curve on each thing that moves by itself, then run. ${truth}`,
-  unused: (stage: string) => `These two are not in use; the stage keeps ${stage}.`,
+    `These are your frames. Draw or find a curve on each object that moves by itself. Then press Run. ${truth}`,
+  unused: (stage: string) => `These two frames are not in use. “${stage}” is still open.`,
   truthWanted:
-    "If their true motion, depth or labels are known, drop those files, too: scores and maps of errors follow.",
-  truthFrom: (names: string) => `The truth comes from ${names}.`,
-  dropMany: "Choose two frames of these",
+    "If you have ground truth for them (motion, depth or labels), drop those files, too. Then scores and error maps are shown.",
+  truthFrom: (names: string) => `Ground truth: ${names}.`,
+  dropMany: "Choose two frames from these",
   openingCamera: "Opening the camera",
   openingStrip: "Opening the filmstrip",
   opening: "Opening your frames",
@@ -31,21 +31,20 @@ export const files = {
   unnamedFrames: ["first frame", "second frame"] as [string, string],
   unnamedPicture: (number: number) => `picture ${number}`,
   unreadable: (name: string) =>
-    `${name} cannot be read; it may be a folder, or have been moved or deleted`,
+    `${name} cannot be read; it may be a folder, or it was moved or deleted`,
   notHere: (name: string, format: string) =>
-    `${name} is ${article(format)} ${format} file, which is not opened here; save it as JPEG, PNG or TIFF first`,
+    `${name} is ${article(format)} ${format} file, which this page cannot open; save it as JPEG, PNG or TIFF first`,
   notInBrowser: (name: string, format: string) =>
-    `${name} is ${article(format)} ${format} file, which this browser does not open; save it as JPEG, PNG or TIFF first`,
+    `${name} is ${article(format)} ${format} file, which this browser cannot open; save it as JPEG, PNG or TIFF first`,
   notTakenApart: (name: string, format: string) =>
-    `${name} is an animated ${format}, which this browser does not take apart; save two of its frames as PNG and open those`,
-  alone: (name: string) =>
-    `${name} holds many frames by itself; open it alone, without other files`,
+    `${name} is an animated ${format}, which this browser cannot split into frames; save two of its frames as PNG and open those`,
+  alone: (name: string) => `${name} holds many frames; open it alone, without other files`,
   frame: (number: number) => `frame ${number}`,
   pictures: (count: number) => `${count} pictures`,
   notShown: (name: string) => `${name} cannot be shown`,
   view: (name: string, which: 0 | 1) => `${name}, ${which === 0 ? "first" : "second"} view`,
   twoViews: (name: string) =>
-    `Two views from one file, ${name}: opened as a pair. Whatever stood still has one motion, and no curve is needed.`,
+    `The two views of ${name} are opened as a pair. If nothing moved between them, no curve is needed.`,
   fromFilm: (film: string, first: string, second: string) =>
     `From ${film}: ${first} and ${second}.`,
   areOpen: (first: string, second: string) => `${first} and ${second} are open.`,
@@ -54,8 +53,8 @@ export const files = {
 const article = (name: string) => (/^[AEIO]/.test(name) ? "an" : "a");
 
 export const truth = {
-  reading: "Reading the truth",
+  reading: "Reading the ground truth",
   noFrames: (names: string, stage: string) =>
-    `${names}: a truth of two frames, but the stage has ${stage || "no frames"}, which brings its own. Open the two frames first, then give their truth.`,
-  taken: (names: string) => `Truth taken: ${names}.`,
+    `${names}: this is ground truth for two frames of your own, but ${stage ? `“${stage}” is open` : "no frames are open"}. Open the two frames first, then their ground truth.`,
+  taken: (names: string) => `Ground truth is loaded: ${names}.`,
 };

@@ -4,22 +4,22 @@
 export const waits = {
   loading: "Loading",
   rendering: "Rendering the sequence",
-  nextPair: "Taking up the next pair",
-  kept: "Opening what was kept",
+  nextPair: "Opening the next pair",
+  kept: "Opening the pair kept on this device",
   link: "Opening the link",
-  afresh: "Starting afresh",
+  afresh: "Restarting the computation",
 };
 
 export const page = {
   isOpen: (title: string, width: number, height: number) =>
     `${title} is open, ${width} by ${height} pixels.`,
   brokeDown: (reason: string) =>
-    `The computation broke down (${reason}) It was started afresh; your frames and curves are kept.`,
+    `The computation has failed: ${reason} It was restarted. Your frames and curves are kept.`,
   notLoaded: (reason: string) =>
     `${reason} Check the connection, then try again or reload the page.`,
   workerFailed: "the worker could not be started",
   undone: "Undone.",
-  redone: "Done again.",
+  redone: "Redone.",
   close: "Close",
 };
 
@@ -29,7 +29,7 @@ export const links = {
   curves: "its curves",
   camera: "its camera",
   options: "its options",
-  params: "how its view is set",
+  params: "the settings of its view",
   scales: "its depth factors",
   split: "its two views",
   ranges: "its range of colours",
@@ -37,14 +37,14 @@ export const links = {
   palette: "its palette",
   useless(parts: string[]): string {
     const list = [parts.slice(0, -1).join(", "), parts.at(-1)].filter(Boolean).join(" and ");
-    return `The link has a part that cannot be used (${list}). The rest of it holds.`;
+    return `A part of the link cannot be used: ${list}. The rest is used.`;
   },
   notKept:
-    "The link is to frames that are not kept on this device. Open the two files, then follow it again.",
-  noSequence: (name: string) => `The link is to a sequence called “${name}”, which there is not.`,
+    "The frames of this link are not kept on this device. Open the two files, then follow the link again.",
+  noSequence: (name: string) => `There is no sequence called “${name}”. The link cannot be opened.`,
   copied: "Link copied.",
-  inAddress: "The link is in the address bar, to copy from there.",
-  withoutFrames: "It does not carry your frames: it works where they are kept.",
+  inAddress: "The link is in the address bar. Copy it from there.",
+  withoutFrames: "It does not contain your frames. It works only on devices that keep them.",
 };
 
 export const lessons = {
@@ -54,17 +54,17 @@ export const lessons = {
     rigid: "The rigid constraint",
     scale: "Why only T/Z",
     weights: "What each weight does",
-    diffusion: "Smoothing by (11) or by (12)",
-    start: "The start does not matter, until it does",
+    diffusion: "Smoothing with (11) or with (12)",
+    start: "When the initial curves matter",
     still: "A still camera sees no depth",
     small: "Small objects and rotation",
     occlusion: "Occlusion",
     scales: "Large motion and scales",
-    flow: "Depth from motion against Horn–Schunck",
+    flow: "Rigid motion compared with Horn–Schunck",
     anaglyph: "How an anaglyph works",
   },
   heading: "Lessons",
-  note: "Each opens on the solver itself, which you can change as you like.",
+  note: "Each step sets up the page and runs the solver. You can change everything as you like.",
   unknown: (name: string) => `There is no lesson called “${name}”. The list is under Learn.`,
   opened: (title: string, step: number, of: number) => `${title}, step ${step} of ${of}.`,
   all: "All lessons",

@@ -7,12 +7,13 @@ export const run = {
   again: "Run again",
   pause: "Pause",
   running: "Running.",
-  backAtCurves: "Back at the drawn curves.",
-  cancelled: "Cancelled; frames and curves are kept.",
-  nextPair: (from: string, to: string) => `Goes on from what was found: ${from} and ${to}`,
+  backAtCurves: "Reset to the drawn curves.",
+  cancelled: "Cancelled. Frames and curves are kept.",
+  nextPair: (from: string, to: string) =>
+    `Continue with ${from} and ${to}, from the present result`,
   paces: {
-    fast: "as fast as it goes",
-    brisk: "brisk",
+    fast: "as fast as possible",
+    brisk: "fast, but visible",
     slow: "slow enough to watch",
   },
 };
@@ -26,7 +27,7 @@ export const status = {
   ended: {
     running: "Paused",
     converged: "Converged",
-    exhausted: "Out of iterations",
+    exhausted: "Pass limit reached",
     diverged: "Diverged",
   },
   passes,
@@ -34,11 +35,11 @@ export const status = {
 };
 
 export const progress = {
-  paper: "Motion, depth and curves take a step each, in turn.",
+  paper: "One step each of motion, depth and curves in every pass.",
   whole: "outlines, motion and depth",
   noCurves: "motion and depth",
   coarse: (what: string, scale: number, of: number) =>
-    `Finding ${what} on small copies, scale ${scale} of ${of}.`,
+    `Estimating ${what} on reduced frames, scale ${scale} of ${of}.`,
   starting: "Starting.",
   full: (what: string) => `Refining ${what} at full size.`,
   aSecondLeft: "About a second left.",
@@ -48,64 +49,64 @@ export const progress = {
 
 /** How a run ended, for those who listen. */
 export const ending = {
-  converged: (count: number) => `Converged after ${count} passes.`,
-  exhausted: (count: number) => `Out of iterations after ${count} passes.`,
-  diverged: (count: number) => `Diverged after ${count} passes.`,
-  running: (count: number) => `Paused after ${count} passes.`,
+  converged: (count: number) => `Converged after ${passes(count)}.`,
+  exhausted: (count: number) => `Pass limit reached after ${passes(count)}.`,
+  diverged: (count: number) => `Diverged after ${passes(count)}.`,
+  running: (count: number) => `Paused after ${passes(count)}.`,
 };
 
 /** How good the result is expected to be. */
 export const expected = {
-  flow: (pixels: string) => `Flow is expected to be right to about ${pixels}\u00a0px.`,
+  flow: (pixels: string) => `Expected error of the image motion: about ${pixels}\u00a0px.`,
   flowAndLabels: (pixels: string, share: string) =>
-    `Flow is expected to be right to about ${pixels}\u00a0px, labels but for about ${share}.`,
+    `Expected errors: image motion about ${pixels}\u00a0px, labels about ${share}.`,
 };
 
 /** What a pass did, and where that comes from. */
 const stages = {
   planes: {
-    did: "every region was taken for a plane, and its image motion fitted",
-    from: "the data term of (7), by Gauss–Newton; labels by cheapest cuts",
+    did: "each region was modelled as a plane, and its image motion was estimated",
+    from: "data term of (7), Gauss–Newton; labels by graph cuts",
   },
   search: {
-    did: "motions in many directions were tried for each region, and the best was kept with a relief",
-    from: "(7) with (1), by Gauss–Newton from each of them; labels by cheapest cuts",
+    did: "motions in many directions were tried for each region; the best was kept, with its depth",
+    from: "(7) with (1), Gauss–Newton from each start; labels by graph cuts",
   },
   selection: {
-    did: "motion and relief were improved, and it was asked whether a region rests, turns, travels or does both",
-    from: "(7), by Gauss–Newton, and a price for each number of a motion; labels by cheapest cuts",
+    did: "motion and depth were refined; a motion model was selected for each region (still, rotation, translation or both)",
+    from: "(7), Gauss–Newton, with a cost for each parameter of the motion; labels by graph cuts",
   },
   surfaces: {
-    did: "motion and relief of each region were improved",
-    from: "(7), by Gauss–Newton; labels by cheapest cuts",
+    did: "motion and depth of each region were refined",
+    from: "(7), Gauss–Newton; labels by graph cuts",
   },
   steps: {
-    did: "depth was found pixel by pixel where a smooth relief fails",
-    from: "ψ of (7) under every depth, neighbours kept alike",
+    did: "depth was estimated pixel by pixel where a smooth surface does not fit",
+    from: "plane sweep over ψ, with semi-global matching",
   },
   descent: {
-    did: "motions, depth and curves took a step each",
-    from: "(7): T and ω by least squares, depth by (9), curves by (17)",
+    did: "one step each of motions, depth and curves",
+    from: "(7): least squares for T and ω, (9) for depth, (17) for curves",
   },
 };
 type Stage = keyof typeof stages;
 
 export const timeline = {
-  back: "Back a pass",
-  forth: "On a pass",
+  back: "Previous pass",
+  forth: "Next pass",
   play: "Play the passes",
   stop: "Stop playing",
   pass: "Pass",
-  beat: "Time of a pass when they play",
-  beats: (seconds: number) => `${seconds} s a pass`,
+  beat: "Time for each pass when playing",
+  beats: (seconds: number) => `${seconds} s per pass`,
   goOn: "Go on",
   fromHere: "from here",
-  goBackFirst: "Go back to a pass first",
-  goOnTitle: "Runs on from the pass shown, with the settings as they are now, as a second line",
-  goingOn: (pass: number) => `Going on from pass ${pass}.`,
+  goBackFirst: "Choose an earlier pass first",
+  goOnTitle: "Continue from the pass shown, with the present settings, as a second line",
+  goingOn: (pass: number) => `Continuing from pass ${pass}.`,
   flicker: "Flicker",
   beside: "Side by side",
-  besideTitle: "The reliefs of both lines under one light",
+  besideTitle: "Show the reliefs of both lines side by side, under the same light",
   lineShown: "Line shown",
   scale: (name: string) => `scale ${name}`,
   /** Lines by their names. */
@@ -117,39 +118,40 @@ export const timeline = {
   off: "off",
   automatic: "automatic",
 
-  start: "The start: curves as drawn, one depth everywhere, nothing moves.",
-  startShort: "The start",
+  start: "Start: the curves as drawn, constant depth, no motion.",
+  startShort: "Start",
   place: (pass: number, of: number, energy: string) => `Pass ${pass} of ${of}. ${energy}`,
   bare: (pass: number) => `Pass ${pass}.`,
   /** Of which scale a pass was, within a sentence on it. */
   scaleOf: (scale: number, of: number) => `, scale ${scale} of ${of}`,
   did: (pass: number, scale: string, stage: Stage, changed: string) =>
-    `Pass ${pass}${scale}: ${stages[stage].did}; ${changed}. From ${stages[stage].from}.`,
+    `Pass ${pass}${scale}: ${stages[stage].did}. ${changed} Method: ${stages[stage].from}.`,
   takenBack: (pass: number, scale: string, stage: Stage) =>
-    `Pass ${pass}${scale}: ${stages[stage].did}; that raised (7), so labels, motions and relief were put back, and the scale is done with.`,
+    `Pass ${pass}${scale}: ${stages[stage].did}. This raised the energy (7), so the pass was undone. The scale is finished.`,
   noSteps: (pass: number, scale: string) =>
-    `Pass ${pass}${scale}: depth pixel by pixel would explain no region better, so nothing was changed. From ${stages.steps.from}.`,
-  adopted: (regions: number) => (regions === 1 ? "1 region took it" : `${regions} regions took it`),
+    `Pass ${pass}${scale}: depth was estimated pixel by pixel, but this explained no region better. Nothing changed. Method: ${stages.steps.from}.`,
+  adopted: (regions: number) =>
+    regions === 1 ? "It was adopted in 1 region." : `It was adopted in ${regions} regions.`,
   /** `pixels` is the number as it is written. */
   changed(count: number, pixels: string): string {
-    if (count === 0) return "no pixel changed sides";
-    return count === 1 ? "1 pixel changed sides" : `${pixels} pixels changed sides`;
+    if (count === 0) return "No pixel changed its region.";
+    return count === 1 ? "1 pixel changed its region." : `${pixels} pixels changed their region.`;
   },
-  goneOn: (pass: number) => `Gone on from pass ${pass}.`,
+  goneOn: (pass: number) => `Continued from pass ${pass}.`,
   goneOnFromCurves: (pass: number) =>
-    `Gone on from the curves of pass ${pass} alone: under these settings depth and motion start anew.`,
+    `Continued from the curves of pass ${pass} only. With these settings, depth and motion start again.`,
   notKept: (pass: number) => `(Pass ${pass} is no longer kept.)`,
 
   energy: (energy: string) => `E ${energy}.`,
-  newSum: (energy: string) => `E ${energy}, a new sum.`,
-  asBefore: (energy: string) => `E ${energy}, as before.`,
-  less: (energy: string, share: string) => `E ${energy}, ${share} less than before.`,
-  more: (energy: string, share: string) => `E ${energy}, ${share} more than before.`,
+  newSum: (energy: string) => `E ${energy}, not comparable with the pass before.`,
+  asBefore: (energy: string) => `E ${energy}, unchanged.`,
+  less: (energy: string, share: string) => `E ${energy}, ${share} lower than before.`,
+  more: (energy: string, share: string) => `E ${energy}, ${share} higher than before.`,
 
   /** Two lines at a pass. */
   energies: (one: string, other: string) =>
     `E is ${one} on the first line, ${other} on the second.`,
   apart: (share: string) => `Labels differ in ${share} of all pixels.`,
-  differ: (options: string) => `What differs is set under ${options}.`,
+  differ: (options: string) => `Different settings: ${options}.`,
   same: "The settings are the same.",
 };

@@ -16,40 +16,40 @@ export const views = {
   },
   depth: {
     label: "Depth",
-    hint: "From far to near along the palette; hatched where two frames do not tell.",
+    hint: "Colours run from far to near. Hatched: depth cannot be determined from these two frames.",
   },
   motion: {
     label: "Motion",
-    hint: "Where each pixel goes: hue is the direction, strength the distance.",
+    hint: "The motion of each pixel. Hue is its direction, strength is its length.",
   },
   anaglyph: {
     label: "Anaglyph",
-    hint: "For coloured glasses, left eye first; or both eyes' pictures side by side, or in turn.",
+    hint: "For coloured glasses, the left eye's colour first. Or the pictures of both eyes, side by side or in turn.",
   },
   relief: {
     label: "Relief",
-    hint: "Turn it by dragging or with the arrow keys, with Shift the light; + and − come closer and go away.",
+    hint: "Drag it, or use the arrow keys, to turn it; with Shift, to move the light. + and − change the distance.",
   },
-  labels: { label: "Labels", hint: "Which region each pixel belongs to." },
+  labels: { label: "Labels", hint: "The region that each pixel belongs to." },
   confidence: {
     label: "Confidence",
-    hint: "1 where depth shows in the image motion, 0 where it cannot be told.",
+    hint: "1: depth is determined by the image motion. 0: it cannot be determined.",
   },
   occlusion: {
     label: "Occlusion",
-    hint: "In colour: what the second frame hides, as far as the preset looks for it.",
+    hint: "Coloured: pixels that are hidden in the second frame, if the preset looks for them.",
   },
   residual: {
     label: "Residual",
-    hint: "|ψ|: what the motion found leaves unexplained of the second frame’s brightness.",
+    hint: "|ψ|: the change of brightness that the motion found does not explain.",
   },
   compare: {
     label: "Compare",
-    hint: "The truth beside what was found, in the same colours; each region's depth in the truth's unit.",
+    hint: "The ground truth beside the result, in the same colours. Each region's depth is scaled to the ground truth.",
   },
   error: {
     label: "Error",
-    hint: "How far what was found is from the truth; each region’s depth in the truth’s unit.",
+    hint: "The error of the result at each pixel. Each region's depth is scaled to the ground truth.",
   },
 };
 
@@ -57,7 +57,7 @@ export const views = {
 export const settings = {
   palette: "Palette",
   curvesOnTop: "Curves on top",
-  motion: "As",
+  motion: "Shown as",
   flow: "Colours",
   arrows: "Arrows",
   presentation: "Shown as",
@@ -73,9 +73,9 @@ export const settings = {
   plaster: "Plaster",
   wireframe: "Wireframe",
   normals: "Normals",
-  ghosts: "Unknown depth as a ghost",
-  compare: "What",
-  error: "Of",
+  ghosts: "Show unknown depth, transparent",
+  compare: "Compare",
+  error: "Error of",
 };
 
 /** What pictures are of, as a name by itself. */
@@ -110,7 +110,7 @@ export const split = {
     residual: "residual",
   },
   side: (whose: string, kind: string) => `${whose}: ${kind}`,
-  errorOfBaseline: "Error: Horn–Schunck’s motion",
+  errorOfBaseline: "Error: Horn–Schunck motion",
   on: "Two views, with a divider between them.",
   off: "One view.",
   at: (share: string) => `${share} from the left`,
@@ -118,16 +118,16 @@ export const split = {
 
 export const curves = {
   tooMany: (most: number) =>
-    `${most} curves are drawn, more are not possible. Delete one to draw another.`,
+    `${most} curves are drawn, and no more are possible. Delete one to draw another.`,
   added: (curve: number, shape: string) => `Curve ${curve} added: ${shape}.`,
   changed: (curve: number, shape: string) => `Curve ${curve}: ${shape}.`,
   deleted: (curve: number) => `Curve ${curve} deleted.`,
   selected: (curve: number, shape: string) => `Curve ${curve} selected: ${shape}.`,
   circle: (x: number, y: number, r: number) => `circle at ${x}, ${y}, radius ${r}`,
   outline: (points: number, x: number, y: number) => `outline of ${points} points about ${x}, ${y}`,
-  finding: "Looking for what moves by itself",
+  finding: "Looking for objects that move by themselves",
   found(curves: number): string {
-    if (curves === 0) return "One motion explains both frames: no curve is needed.";
+    if (curves === 0) return "One motion explains the whole frame. No curve is needed.";
     return curves === 1 ? "1 curve found." : `${curves} curves found.`;
   },
 };
@@ -135,22 +135,22 @@ export const curves = {
 export const stage = {
   overlay: "Curves on the frame",
   pixelByPixel: (view: string) => `${view}, pixel by pixel`,
-  drawnAfterPass: "Drawn once this pass is done…",
-  beingDrawn: "Being drawn…",
+  drawnAfterPass: "This view is drawn after the present pass…",
+  beingDrawn: "Drawing…",
 };
 
 export const legend = {
-  depthInTruth: "Depth in the truth's unit",
-  depthInMean: "Depth; 1 is the region's mean",
-  truthUnit: "truth's unit",
+  depthInTruth: "Depth in the unit of the ground truth",
+  depthInMean: "Depth, in units of the region's mean depth",
+  truthUnit: "unit of the truth",
   meanUnit: "× mean",
   longest: (value: string) => `longest ${value}`,
   hold: "Hold",
   holdWhat: "the range",
-  isHeld: "The range is held; press to let it follow",
-  isFree: "Hold this range of colours",
+  isHeld: "This range is kept for all passes. Press to fit it to each pass again.",
+  isFree: "Keep this range of colours for all passes",
   rim: (value: string) => `rim ${value}`,
-  rimTitle: "Motion at which colours are full",
+  rimTitle: "Length of the motion at the rim of the wheel, where colours are strongest",
   background: "Backgr.",
   curve: (label: number) => `Curve ${label}`,
 };
@@ -164,24 +164,24 @@ export const readout = {
   curve: (label: number) => `curve ${label}`,
   depth: "depth",
   timesMean: (value: string) => `${value} × mean`,
-  depthTitle: "In units of the region's mean",
+  depthTitle: "In units of the region's mean depth",
   motion: "motion",
   pixels: (speed: string, u: string, v: string) => `${speed} px (${u}, ${v})`,
-  motionTitle: "Pixels per frame: its length, to the right and downwards",
-  residualTitle: "Brightness that motion leaves unexplained, grey levels",
+  motionTitle: "Pixels per frame: length, and in brackets to the right and down",
+  residualTitle: "Residual: change of brightness that the motion does not explain, in grey levels",
   confidence: "confidence",
-  confidenceTitle: "How far depth shows in the image motion, 0 to 1",
+  confidenceTitle: "How well the image motion determines depth, 0 to 1",
   hidden: "hidden",
   inSecond: "in the second frame",
 };
 
 export const relief = {
   tap: "Tap to turn",
-  keys: "Relief. Arrow keys turn it, with Shift they move the light; plus and minus come closer and go away, Home looks from the front.",
-  front: "Relief seen from the front.",
+  keys: "Relief. Arrow keys turn it; with Shift they move the light. Plus comes closer, minus goes away, Home shows the front.",
+  front: "The relief is seen from the front.",
   broken: (reason: string) =>
-    `The relief cannot be shown: ${reason}. It needs WebGL; the other views do not.`,
-  light: (from: string) => `Light from ${from}: drag it, or move it with the arrow keys`,
+    `The relief cannot be shown: ${reason}. It needs WebGL. The other views do not.`,
+  light: (from: string) => `Light from ${from}. Drag it, or move it with the arrow keys`,
   /** Where the light comes from: aside −1, 0, 1 from the left to the right; above 1, below −1. */
   from(aside: number, above: number): string {
     const up = above > 0 ? "above" : above < 0 ? "below" : "";
@@ -195,6 +195,6 @@ export const glasses = {
   leaveFull: "Leave full screen",
   wiggle: "Wiggle",
   stop: "Stop wiggling",
-  inTurn: "Left and right eye's picture in turn",
-  besideEachOther: "Left and right eye's picture side by side",
+  inTurn: "The pictures of the left and the right eye, in turn",
+  besideEachOther: "The pictures of the left and the right eye, side by side",
 };

@@ -2,10 +2,10 @@
 
 export const worker = {
   own: "Your own frames",
-  focalOfSequence: "f is the sequence's own.",
+  focalOfSequence: "f is known for this sequence.",
   focalOfLens: (lens: string) => `f is from ${lens}.`,
-  focalGuessed: "f is a guess: the frame's width.",
-  noFrames: "no frames are open; pick a sequence or open two frames",
-  noTruth: "the truth of these frames is not known",
-  notLoaded: (reason: string) => `the core cannot be loaded: ${reason}`,
+  focalGuessed: "f is unknown. As a guess it is the width of the frame.",
+  noFrames: "no frames are open; choose a sequence or open two frames",
+  noTruth: "there is no ground truth for these frames",
+  notLoaded: (reason: string) => `the solver cannot be loaded: ${reason}`,
 };
