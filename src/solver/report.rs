@@ -238,16 +238,19 @@ fn warnings(regions: &[RegionReport]) -> impl Iterator<Item = String> {
         .iter()
         .filter(|r| r.pixels == 0)
         .map(|r| match r.label {
-            0 => "The curves have taken the whole frame: no background is left.".to_owned(),
+            0 => "The curves cover the whole frame. No background is left.".to_owned(),
             k => format!("Curve {k} has vanished: nothing moves differently where it was drawn."),
         });
-    let ambiguous = regions.iter().filter(|r| r.ambiguous && r.pixels > 0).map(|r| {
-        let name = match r.label {
-            0 => "The background".to_owned(),
-            k => format!("Region {k}"),
-        };
-        format!("{name} has two explanations that fit equally well; the one with less relief is shown.")
-    });
+    let ambiguous = regions
+        .iter()
+        .filter(|r| r.ambiguous && r.pixels > 0)
+        .map(|r| {
+            let name = match r.label {
+                0 => "The background".to_owned(),
+                k => format!("Region {k}"),
+            };
+            format!("{name}: two motions fit equally well. The one with less relief is shown.")
+        });
     let loose = regions
         .iter()
         .filter(|r| !r.rigid && r.pixels > 0)
@@ -256,7 +259,7 @@ fn warnings(regions: &[RegionReport]) -> impl Iterator<Item = String> {
                 0 => "the background".to_owned(),
                 k => format!("region {k}"),
             };
-            format!("No rigid motion fits {name}: it bends, or several things move there.")
+            format!("No rigid motion fits {name}. It may bend, or several objects move in it.")
         });
     let parts = regions.iter().filter(|r| r.pixels > 0).filter_map(|r| {
         let whole = match r.part_of? {
