@@ -90,6 +90,9 @@ test("index.html has words by their keys alone, and uses every key", () => {
   expect(shown).toEqual(["Relievo"]);
   const spoken = [...html.matchAll(/(?:title|alt|placeholder|aria-label)="([^"]+)"/g)];
   for (const [, words] of spoken) expect(words).toMatch(/^\{\{\w+\}\}$/);
+  for (const sheet of readdirSync(join(WWW, "style"))) {
+    expect(read(`style/${sheet}`), sheet).not.toMatch(/content: *["'][^"']*\p{L}/u);
+  }
 });
 
 test("the page is built with them", async ({ opened: page }) => {
