@@ -90,6 +90,8 @@ export default defineConfig({
         // Its address is what browsers know it by.
         entryFileNames: ({ name }) =>
           name === "service-worker" ? WORKER : "assets/[name]-[hash].js",
+        // What the page needs from the start is one file: it is smaller than parts that are shared with what comes later.
+        codeSplitting: { groups: [{ name: "page", test: /[\\/]www[\\/]main\.ts$/ }] },
       },
     },
   },

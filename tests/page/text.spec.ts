@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 import { parseSync } from "vite";
 
 import { en } from "../../www/text/en";
-import * as later from "../../www/text/en/later";
+import { later } from "../../www/text/en/later";
 import { markup } from "../../www/text/en/markup";
 import { worker } from "../../www/text/en/worker";
 import { expect, test } from "./helpers";

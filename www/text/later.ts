@@ -1,6 +1,6 @@
 /** What dialogs say that are fetched when they are opened (`index.ts` says how languages are kept). */
 
-import * as en from "./en/later";
+import { later as en } from "./en/later";
 
 export type Later = typeof en;
 

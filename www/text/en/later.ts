@@ -1,6 +1,6 @@
 /** What comes with dialogs that are fetched when they are opened: export, camera, filmstrip, clips. */
 
-export const exporting = {
+const exporting = {
   title: "Export",
   oneAtATime: "Wait: another file is still being written.",
   writing: "Writing…",
@@ -39,7 +39,7 @@ export const exporting = {
   notRun: "Run the solver first. There is no result yet.",
 };
 
-export const solveFilm = {
+const solveFilm = {
   noPasses: "No passes of this solve are kept.",
   about: (pictures: number, seconds: number) =>
     `The outlines after each pass, with the energy: ${pictures} pictures in ${seconds} s.`,
@@ -53,7 +53,7 @@ export const solveFilm = {
 };
 
 /** Files of a result: what each is, its units, and what its buttons say. */
-export const items = {
+const items = {
   labels: {
     title: "Labels",
     line: "8-bit PNG. 0 is the background, k is inside curve k. The numbers are small, so the picture looks black.",
@@ -86,7 +86,7 @@ export const items = {
 };
 
 /** The README in the zip; `files` are their names, each with a line; `film` is why there is none, or empty. */
-export const readme = (title: string, files: string, film: string) =>
+const readme = (title: string, files: string, film: string) =>
   `${title}: result of Relievo.
 
 pictures/
@@ -99,7 +99,7 @@ cite.bib
 Pixel (0, 0) is the centre of the top-left pixel. The camera looks along Z. x is to the right, y is down.
 `;
 
-export const camera = {
+const camera = {
   title: "Take two frames with the camera",
   camera: "Camera",
   unnamed: (number: number) => `Camera ${number}`,
@@ -128,7 +128,7 @@ export const camera = {
     `The camera cannot be used (${reason}). Open a clip or two photos instead.`,
 };
 
-export const strip = {
+const strip = {
   title: (film: string) => `Choose two frames of ${film}`,
   frames: ["First frame", "Second frame"] as [string, string],
   keys: "Keys: 1 and 2 choose which frame to set. Comma and full stop go one frame back and forward.",
@@ -159,10 +159,12 @@ export const strip = {
   isSecond: "the second",
 };
 
-export const clips = {
+const clips = {
   encoded: (name: string, codec: string) =>
     `${name} is encoded as ${codec}, which this browser cannot play; open it in another browser, or convert it to MP4 with H.264 first, with the free ffmpeg or HandBrake`,
   unknown: (name: string, container: string) =>
     `${name} is of the kind ${container}, which this browser cannot play; open it in another browser, or convert it to MP4 with H.264 first, with the free ffmpeg or HandBrake`,
   notDecoded: (name: string, time: string) => `${name} cannot be decoded at ${time}`,
 };
+
+export const later = { exporting, solveFilm, items, readme, camera, strip, clips };
