@@ -151,7 +151,7 @@ function facing({
 }: RegionReport): string {
   const facts: string[] = [
     `${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)}`,
-    rigid ? model : words.nonRigid,
+    rigid ? words.models[model] : words.nonRigid,
   ];
   if (part_of != null) facts.push(part_of > 0 ? words.oneWith(part_of) : words.isBackground);
   if (ambiguous) facts.push(words.ambiguous);

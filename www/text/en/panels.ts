@@ -14,6 +14,12 @@ export const regions = {
   rough: "A rough curve that covers a part of each moving object is enough.",
   circle: (x: number, y: number, r: number) => `${x}, ${y} · radius ${r}`,
   corners: (count: number) => `${count} corners`,
+  models: {
+    still: "still",
+    rotation: "rotation",
+    translation: "translation",
+    full: "translation and rotation",
+  },
   nonRigid: "non-rigid",
   oneWith: (label: number) => `same body as ${label}?`,
   isBackground: "part of the background?",
