@@ -81,7 +81,7 @@ test("a hang can be cancelled, even with a focal length that no camera has", asy
   await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
   // Pausing asks a worker that no longer listens; the page itself must still answer.
   await page.getByRole("radio", { name: "Depth", exact: true }).check({ force: true });
-  await expect(page.locator("#hint")).toContainText("hatched");
+  await expect(page.locator("#hint")).toContainText("Hatched");
   const focal = (await inSettings(page)).getByLabel("Focal length f, px");
   await focal.fill("0");
   await focal.press("Enter");
