@@ -6,10 +6,26 @@ import { fileURLToPath } from "node:url";
 import { defineConfig, type Plugin } from "vite";
 
 import { POLICY } from "./scripts/policy.js";
+import { markup } from "./www/text/en/markup";
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
 const WORKER = "service-worker.js";
+
+/** Puts the words into the page, where their keys stand in double braces. */
+const words: Plugin = {
+  name: "words",
+  transformIndexHtml: {
+    order: "pre",
+    handler: (html) =>
+      html.replace(/\{\{(\w+)\}\}/g, (_, key: string) => {
+        const word = (markup as Record<string, string>)[key];
+        if (word === undefined)
+          throw new Error(`index.html asks for words that there are not: ${key}`);
+        return word.replaceAll("&", "&amp;").replaceAll('"', "&quot;").replaceAll("<", "&lt;");
+      }),
+  },
+};
 
 /** The policy in the page's head, so that it holds on any server; styles of `npm run dev` would not pass it. */
 const policy: Plugin = {
@@ -58,7 +74,7 @@ export default defineConfig({
   root: here("www"),
   // Relative addresses, so that the built page can be put into any folder of any server.
   base: "./",
-  plugins: [policy, files],
+  plugins: [words, policy, files],
   build: {
     outDir: here("dist"),
     emptyOutDir: true,
@@ -74,6 +90,8 @@ export default defineConfig({
         // Its address is what browsers know it by.
         entryFileNames: ({ name }) =>
           name === "service-worker" ? WORKER : "assets/[name]-[hash].js",
+        // What the page needs from the start is one file: it is smaller than parts that are shared with what comes later.
+        codeSplitting: { groups: [{ name: "page", test: /[\\/]www[\\/]main\.ts$/ }] },
       },
     },
   },

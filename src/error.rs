@@ -68,7 +68,7 @@ pub enum Error {
     },
     /// Depth asked for where regions move as planes still.
     #[error(
-        "there is no depth yet: regions move as planes until their outlines stand still; take motion and curves, or whole passes, {most} at most"
+        "there is no depth yet: regions are modelled as planes until their outlines stop moving; take steps of motion and curves, or whole passes, {most} at most"
     )]
     Planes {
         /// Passes before depth is looked for, at most.
@@ -101,7 +101,7 @@ pub enum Error {
     },
     /// A result and a truth of different sizes.
     #[error(
-        "what was found is {}×{}, the truth {}×{} pixels; both must be of the same frames",
+        "the result is {}×{}, the ground truth {}×{} pixels; both must be of the same frames",
         .found.0, .found.1, .truth.0, .truth.1
     )]
     TruthDiffers {
@@ -112,7 +112,7 @@ pub enum Error {
     },
     /// A truth that is not of the frames that are open.
     #[error(
-        "the truth is {}×{} pixels, the frames are {}×{}; give the truth of the first frame at its own size, or open the frames that it belongs to",
+        "the ground truth is {}×{} pixels, the frames are {}×{}; give the ground truth of the first frame at its own size, or open the frames that it belongs to",
         .truth.0, .truth.1, .frames.0, .frames.1
     )]
     TruthSize {
@@ -123,14 +123,14 @@ pub enum Error {
     },
     /// A file that is no truth of any kind.
     #[error(
-        "{name} is no truth that can be read: flow as .flo or KITTI's 16-bit PNG, labels as 8-bit grey PNG, depth as PFM or 16-bit grey PNG, or motion.json"
+        "{name} is no ground truth that can be read: flow as .flo or KITTI's 16-bit PNG, labels as 8-bit grey PNG, depth as PFM or 16-bit grey PNG, or motion.json"
     )]
     NoTruth {
         /// The file.
         name: String,
     },
     /// Two files of the same kind.
-    #[error("{one} and {other} both have the true {what}; give one of them")]
+    #[error("{one} and {other} both have the ground truth of {what}; give one of them")]
     TruthTwice {
         /// The one.
         one: String,
@@ -181,7 +181,7 @@ pub enum Error {
     FramesIdentical,
     /// A frame without any contrast.
     #[error(
-        "{which} frame has the same grey everywhere, so there is nothing to see move; give frames with texture"
+        "{which} frame has the same grey everywhere, so no motion can be seen; give frames with texture"
     )]
     FrameConstant {
         /// "the first" or "the second".

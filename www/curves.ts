@@ -9,7 +9,7 @@ import { present, recorded } from "./memory/history";
 import { look } from "./looking";
 import { ask, configure } from "./session";
 import { store, type State } from "./store";
-import { findingOf } from "./wording";
+import { text } from "./text";
 import type { Point, Shape } from "./worker/protocol";
 
 /** Shows the curves as they would be, without making a step of it. */
@@ -26,37 +26,35 @@ export function add(shape: Shape): void {
   const { shapes, catalogues } = store.state;
   const most = catalogues?.limits.maxCurves ?? 7;
   if (shapes.length >= most) {
-    store.update({
-      message: `${most} curves are drawn, more are not possible. Delete one to draw another.`,
-    });
+    store.update({ message: text.curves.tooMany(most) });
     return;
   }
   record(shapes, [...shapes, shape], shapes.length);
-  announce(`Curve ${shapes.length + 1} added: ${describe(shape)}.`);
+  announce(text.curves.added(shapes.length + 1, describe(shape)));
 }
 
 export function replace(index: number, shape: Shape): void {
   const { shapes } = store.state;
   record(shapes, shapes.with(index, shape), index);
-  announce(`Curve ${index + 1}: ${describe(shape)}.`);
+  announce(text.curves.changed(index + 1, describe(shape)));
 }
 
 export function remove(index: number): void {
   const { shapes } = store.state;
   if (!shapes[index]) return;
   record(shapes, shapes.toSpliced(index, 1), null);
-  announce(`Curve ${index + 1} deleted.`);
+  announce(text.curves.deleted(index + 1));
 }
 
 /** Puts the curves that the core finds by itself in place of those there are, as one step. */
 export async function find(): Promise<void> {
   const { camera } = store.state;
   store.update({ view: "curves", tool: "select" });
-  const found = await ask("Looking for what moves by itself", (service) => service.find(camera));
+  const found = await ask(text.curves.finding, (service) => service.find(camera));
   if (!found) return;
   const before = store.state.shapes;
   if (before.length + found.length > 0) record(before, found, null);
-  const finding = findingOf(found.length);
+  const finding = text.curves.found(found.length);
   store.update({ finding });
   announce(finding);
 }
@@ -66,7 +64,7 @@ export function select(index: number | null): void {
   if (index === selected) return;
   store.update({ selected: index });
   const shape = index === null ? undefined : shapes[index];
-  if (shape) announce(`Curve ${index! + 1} selected: ${describe(shape)}.`);
+  if (shape) announce(text.curves.selected(index! + 1, describe(shape)));
 }
 
 function record(before: Shape[], after: Shape[], selected: number | null): void {
@@ -118,8 +116,8 @@ export function extent(shape: Shape): Point {
 }
 
 export function describe(shape: Shape): string {
-  const [x, y] = middle(shape).map(Math.round);
+  const [x, y] = middle(shape).map(Math.round) as Point;
   return shape.kind === "circle"
-    ? `circle at ${x}, ${y}, radius ${Math.round(shape.r)}`
-    : `outline of ${shape.points.length} points about ${x}, ${y}`;
+    ? text.curves.circle(x, y, Math.round(shape.r))
+    : text.curves.outline(shape.points.length, x, y);
 }

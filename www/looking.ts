@@ -5,10 +5,11 @@
 
 import { announce } from "./dom";
 import { store } from "./store";
+import { text } from "./text";
 import { entered, keptAt, reportAt, standingAt, type Visit } from "./timeline/line";
 import { Viewer } from "./viewer";
 import { wantedBy } from "./views";
-import { ending, sentence } from "./wording";
+import { sentence } from "./wording";
 import type { Remote } from "./worker/client";
 import type { MeshData, Progress, Standing, Wanted } from "./worker/protocol";
 
@@ -177,7 +178,7 @@ export async function show(progress: Progress): Promise<void> {
     slow = null;
     if (!state.visit) viewer.end();
   }
-  if (finished) announce(ending(report));
+  if (finished) announce(text.ending[report.status](report.iterations));
   if (lookAgain) {
     lookAgain = false;
     void look();

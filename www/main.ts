@@ -5,7 +5,6 @@
  * it shows and calls what it offers. What is computed is computed in the worker.
  */
 
-import about from "./about.html?raw";
 import { byId } from "./dom";
 import { mountCamera } from "./panels/camera";
 import { mountExport } from "./export/export";
@@ -40,6 +39,7 @@ import { mountTools } from "./stage/tools";
 import { mountZoom } from "./stage/zoom";
 import { mountTimeline } from "./timeline/timeline";
 import { store } from "./store";
+import { about } from "./text";
 
 byId("about").innerHTML = about;
 

@@ -6,11 +6,12 @@
  */
 
 import type { State } from "./store";
+import { text } from "./text";
 
 export const PACES = [
-  { value: 0, label: "as fast as it goes" },
-  { value: 100, label: "brisk" },
-  { value: 400, label: "slow enough to watch" },
+  { value: 0, label: text.run.paces.fast },
+  { value: 100, label: text.run.paces.brisk },
+  { value: 400, label: text.run.paces.slow },
 ] as const;
 
 export function paceOf({ pace, source, options }: Readonly<State>): number {

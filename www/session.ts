@@ -15,6 +15,7 @@ import { paceOf } from "./pace";
 import { standingAt } from "./timeline/line";
 import { sceneOf } from "./scenes";
 import { store, type State } from "./store";
+import { text } from "./text";
 import { sentence } from "./wording";
 import { Client, Ended, type Remote } from "./worker/client";
 import type { Failure, Found, FrameFile, Part, Setup, Source, Wanted } from "./worker/protocol";
@@ -34,14 +35,14 @@ lookThrough((use) => attempt(null, () => client.call(use)));
 
 /** Loads the core; `memory/first.ts` says what is opened first. */
 export async function load(): Promise<boolean> {
-  await attempt("Loading", async () => {
+  await attempt(text.waits.loading, async () => {
     store.update({ catalogues: await client.call((service) => service.catalogues()) });
   });
   return store.state.catalogues !== null;
 }
 
 export function openScene(name: string, setting?: Partial<Setting>): Promise<boolean> {
-  return open(sceneOf(name), "Rendering the sequence", setting);
+  return open(sceneOf(name), text.waits.rendering, setting);
 }
 
 /**
@@ -66,7 +67,7 @@ export function open(
         adopt(source, opened, { keep, setting: refused ? {} : setting, found: shown });
         if (refused) store.update({ message: sentence(refused) });
         await look();
-        announce(`${opened.title} is open, ${opened.width} by ${opened.height} pixels.`);
+        announce(text.page.isOpen(opened.title, opened.width, opened.height));
       });
     } finally {
       if (store.state.opening === source) store.update({ opening: null });
@@ -103,7 +104,7 @@ async function openWith(
 
 /** Goes on to the next pair of a film, `next` after the second frame, from what was found; `false` when it is refused. */
 export function follow(next: FrameFile, note: string): Promise<boolean> {
-  return attempt("Taking up the next pair", () =>
+  return attempt(text.waits.nextPair, () =>
     client.inTurn(async (service) => {
       const { source } = store.state;
       if (source?.kind !== "files") return;
@@ -117,7 +118,7 @@ export function follow(next: FrameFile, note: string): Promise<boolean> {
 
 /** Takes files for what is true of the pair that is open; `false` when they are refused. */
 export function takeTruth(truth: FrameFile[]): Promise<boolean> {
-  return attempt("Reading the truth", () =>
+  return attempt(text.truth.reading, () =>
     client.inTurn(async (service) => {
       const { source } = store.state;
       if (source?.kind !== "files") return;
@@ -166,7 +167,7 @@ export async function run(): Promise<void> {
   const done = await command(patch, (service, setup, wanted) =>
     service.run(setup, wanted, paceOf(store.state)),
   );
-  if (done) announce("Running.");
+  if (done) announce(text.run.running);
 }
 
 /** Tells the worker of another pace; a run that begins takes its own along. */
@@ -199,7 +200,7 @@ export function keep(): Promise<Found | null> {
 
 export async function reset(): Promise<boolean> {
   const done = await command({}, (service, setup, wanted) => service.reset(setup, wanted));
-  if (done) announce("Back at the drawn curves.");
+  if (done) announce(text.run.backAtCurves);
   return done;
 }
 
@@ -220,7 +221,7 @@ export async function cancel(): Promise<void> {
     // What hung may have been the core's own loading.
     if (!store.state.catalogues) void load();
   }
-  announce("Cancelled; frames and curves are kept.");
+  announce(text.run.cancelled);
 }
 
 /** What has not been sent yet, and so will tell of later changes, too. */
@@ -296,16 +297,14 @@ function failed({ message, panic }: Failure, stopped = panic): void {
   store.update({
     // What is refused changes nothing: a run goes on as it was.
     running: store.state.running && !stopped,
-    message: panic
-      ? `The computation broke down (${sentence(message)}) It was started afresh; your frames and curves are kept.`
-      : sentence(message),
+    message: panic ? text.page.brokeDown(sentence(message)) : sentence(message),
   });
   if (panic) void recover();
 }
 
 /** The next worker loads the core again. */
 function unloaded(reason: string): void {
-  const message = `${sentence(reason)} Check the connection, then try again or reload the page.`;
+  const message = text.page.notLoaded(sentence(reason));
   failed({ message, panic: false }, true);
   void recover();
 }
@@ -318,7 +317,7 @@ async function recover(byHand = false): Promise<void> {
   // A hang that was cancelled may be of what was found.
   const found = byHand ? null : presentFound(store.state);
   client.restart();
-  const reopened = attempt("Starting afresh", () =>
+  const reopened = attempt(text.waits.afresh, () =>
     client.inTurn((service) => reopen(service, found)),
   );
   recovering = reopened;

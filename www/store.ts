@@ -7,6 +7,7 @@
 import type { Film } from "./intake/film";
 import type { Session } from "./memory/database";
 import { FITTING, type Zoom } from "./stage/place";
+import { text } from "./text";
 import type { Timeline, Visit } from "./timeline/line";
 import type {
   Camera,
@@ -245,7 +246,7 @@ export const store = new Store({
   focalFinding: null,
   options: {},
   pace: null,
-  busy: "Loading",
+  busy: text.waits.loading,
   playing: false,
   memory: [],
   running: false,

@@ -5,6 +5,7 @@
 import { byId } from "./dom";
 import { sidesAsk, tells, TOLD } from "./stage/sides";
 import { store, type State, type ViewParams } from "./store";
+import { text } from "./text";
 import type { Choice, Wanted, Whose } from "./worker/protocol";
 
 /** Something that a view lets one set. */
@@ -41,56 +42,54 @@ export interface Group {
   views: string[];
 }
 
+const group = (id: keyof typeof text.groups, ...views: (keyof typeof text.views)[]): Group => ({
+  ...{ id, label: text.groups[id], views },
+});
+
 export const GROUPS: Group[] = [
-  { id: "curves", label: "Outlines", views: ["curves"] },
-  { id: "depth", label: "Depth", views: ["depth"] },
-  { id: "motion", label: "Motion", views: ["motion"] },
-  { id: "space", label: "3-D", views: ["relief", "anaglyph"] },
-  {
-    id: "diagnostics",
-    label: "Diagnostics",
-    views: ["labels", "confidence", "occlusion", "residual", "compare", "error"],
-  },
+  group("curves", "curves"),
+  group("depth", "depth"),
+  group("motion", "motion"),
+  group("space", "relief", "anaglyph"),
+  group("diagnostics", "labels", "confidence", "occlusion", "residual", "compare", "error"),
 ];
 
 export const groupOf = (view: string): Group =>
   GROUPS.find(({ views }) => views.includes(view)) ?? GROUPS[0]!;
 
+const { settings, kinds } = text;
 const NONE = () => [];
 const palette = ({ catalogues }: Readonly<State>): Setting => ({
-  ...{ key: "palette", label: "Palette", choices: catalogues?.palettes ?? [] },
+  ...{ key: "palette", label: settings.palette, choices: catalogues?.palettes ?? [] },
 });
-const ON_TOP: Setting = { key: "curvesOnTop", label: "Curves on top" };
+const ON_TOP: Setting = { key: "curvesOnTop", label: settings.curvesOnTop };
 
 export const VIEWS: View[] = [
   {
     id: "curves",
-    label: "Outlines",
-    hint: "The frame with its curves. Draw, move and resize them here.",
+    ...text.views.curves,
     kinds: NONE,
     settings: NONE,
     curves: true,
   },
   {
     id: "depth",
-    label: "Depth",
-    hint: "From far to near along the palette; hatched where two frames do not tell.",
+    ...text.views.depth,
     kinds: () => ["depth"],
     settings: (state) => [palette(state), ON_TOP],
     curves: true,
   },
   {
     id: "motion",
-    label: "Motion",
-    hint: "Where each pixel goes: hue is the direction, strength the distance.",
+    ...text.views.motion,
     kinds: ({ motion }) => [motion],
     settings: () => [
       {
         key: "motion",
-        label: "As",
+        label: settings.motion,
         choices: [
-          { value: "flow", label: "Colours" },
-          { value: "arrows", label: "Arrows" },
+          { value: "flow", label: settings.flow },
+          { value: "arrows", label: settings.arrows },
         ],
       },
       ON_TOP,
@@ -99,76 +98,71 @@ export const VIEWS: View[] = [
   },
   {
     id: "anaglyph",
-    label: "Anaglyph",
-    hint: "For coloured glasses, left eye first; or both eyes' pictures side by side, or in turn.",
+    ...text.views.anaglyph,
     kinds: ({ presentation }) => [presentation === "anaglyph" ? "anaglyph" : "stereo"],
     settings: ({ catalogues }) => [
       {
         key: "presentation",
-        label: "Shown as",
+        label: settings.presentation,
         choices: [
-          { value: "anaglyph", label: "Anaglyph" },
+          { value: "anaglyph", label: settings.anaglyph },
           ...(catalogues?.layouts ?? []),
-          { value: "wiggle", label: "Wiggle" },
+          { value: "wiggle", label: settings.wiggle },
         ],
       },
-      { key: "glasses", label: "Glasses", choices: catalogues?.glasses ?? [] },
-      { key: "swap", label: "Swap eyes" },
+      { key: "glasses", label: settings.glasses, choices: catalogues?.glasses ?? [] },
+      { key: "swap", label: settings.swap },
       {
         key: "baseline",
-        label: "Parallax",
+        label: settings.parallax,
         range: { min: 0, max: 0.08, step: 0.0025 },
         percent: true,
       },
       {
         key: "convergence",
-        label: "Convergence",
+        label: settings.convergence,
         range: { min: 0, max: 1, step: 0.02 },
         percent: true,
         also: { converge: false },
       },
-      { key: "converge", label: "Automatic convergence" },
+      { key: "converge", label: settings.converge },
     ],
   },
   {
     id: "relief",
-    label: "Relief",
-    hint: "Turn it by dragging or with the arrow keys, with Shift the light; + and − come closer and go away.",
+    ...text.views.relief,
     kinds: NONE,
     settings: () => [
       {
         key: "material",
-        label: "Surface",
+        label: settings.material,
         choices: [
-          { value: "textured", label: "Frame" },
-          { value: "plaster", label: "Plaster" },
-          { value: "wireframe", label: "Wireframe" },
-          { value: "normals", label: "Normals" },
+          { value: "textured", label: settings.textured },
+          { value: "plaster", label: settings.plaster },
+          { value: "wireframe", label: settings.wireframe },
+          { value: "normals", label: settings.normals },
         ],
       },
-      { key: "ghosts", label: "Unknown depth as a ghost" },
+      { key: "ghosts", label: settings.ghosts },
     ],
   },
   {
     id: "labels",
-    label: "Labels",
-    hint: "Which region each pixel belongs to.",
+    ...text.views.labels,
     kinds: () => ["labels"],
     settings: NONE,
     crisp: true,
   },
   {
     id: "confidence",
-    label: "Confidence",
-    hint: "1 where depth shows in the image motion, 0 where it cannot be told.",
+    ...text.views.confidence,
     kinds: () => ["confidence"],
     settings: (state) => [palette(state), ON_TOP],
     curves: true,
   },
   {
     id: "occlusion",
-    label: "Occlusion",
-    hint: "In colour: what the second frame hides, as far as the preset looks for it.",
+    ...text.views.occlusion,
     kinds: () => ["occlusion"],
     settings: () => [ON_TOP],
     crisp: true,
@@ -176,43 +170,40 @@ export const VIEWS: View[] = [
   },
   {
     id: "residual",
-    label: "Residual",
-    hint: "|ψ|: what the motion found leaves unexplained of the second frame’s brightness.",
+    ...text.views.residual,
     kinds: () => ["residual"],
     settings: (state) => [palette(state), ON_TOP],
     curves: true,
   },
   {
     id: "compare",
-    label: "Compare",
-    hint: "The truth beside what was found, in the same colours; each region's depth in the truth's unit.",
+    ...text.views.compare,
     kinds: ({ compare }) => [compare],
     settings: ({ truth }) => [
       {
         key: "compare",
-        label: "What",
+        label: settings.compare,
         choices: [
-          { value: "flow", label: "Motion" },
-          { value: "depth", label: "Depth" },
-          { value: "labels", label: "Labels" },
-          { value: "occlusion", label: "Occlusion" },
+          { value: "flow", label: kinds.flow },
+          { value: "depth", label: kinds.depth },
+          { value: "labels", label: kinds.labels },
+          { value: "occlusion", label: kinds.occlusion },
         ].filter(({ value }) => tells(truth, value)),
       },
     ],
   },
   {
     id: "error",
-    label: "Error",
-    hint: "How far what was found is from the truth; each region’s depth in the truth’s unit.",
+    ...text.views.error,
     kinds: ({ error }) => [error],
     settings: (state) => [
       {
         key: "error",
-        label: "Of",
+        label: settings.error,
         choices: [
-          { value: "error-flow", label: "Motion" },
-          { value: "error-depth", label: "Depth" },
-          { value: "error-labels", label: "Labels" },
+          { value: "error-flow", label: kinds.flow },
+          { value: "error-depth", label: kinds.depth },
+          { value: "error-labels", label: kinds.labels },
         ].filter(({ value }) => tells(state.truth, value.slice(6))),
       },
       palette(state),
@@ -307,12 +298,6 @@ export function asks(state: Readonly<State>): [Whose, string][] {
 const compared = (kind: string): Whose[] =>
   kind === "flow" ? ["truth", "found", "horn-schunck"] : ["truth", "found"];
 
-const NAMES: Record<Whose, string> = {
-  truth: "Truth",
-  found: "Found",
-  "horn-schunck": "Horn–Schunck",
-};
-
 /** A name for what is shown: the view, and the kinds of its pictures where they can be chosen. */
 export function nameOf({ view, viewParams, split }: Readonly<State>): string {
   if (split) return [view, split.left, split.right].join(" ");
@@ -329,5 +314,5 @@ export function awaited(state: Readonly<State>): boolean {
 
 /** A name above each picture, where there are several. */
 export function captionsOf(state: Readonly<State>): string[] {
-  return state.view === "compare" && !state.split ? asks(state).map(([of]) => NAMES[of]) : [];
+  return state.view === "compare" && !state.split ? asks(state).map(([of]) => text.whose[of]) : [];
 }

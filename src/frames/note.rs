@@ -34,12 +34,12 @@ impl std::fmt::Display for Note {
         match self {
             Self::Absent { share } => write!(
                 f,
-                "{:.1} % of the frames show nothing of the scene: transparent parts, black bars, or a logo or words that stand still over a moving picture. No depth is found there.",
+                "{:.1} % of the frames do not show the scene: they are transparent, black bars, or a logo or text over the picture. No depth is found there.",
                 100.0 * share
             ),
             Self::Faint { levels } => write!(
                 f,
-                "The frames are faint: all that they show lies within {levels} levels of brightness. Both are stretched alike; fine relief and small motions may be lost."
+                "The frames have little contrast: only {levels} levels of brightness. The contrast of both is stretched equally. Fine relief and small motions may be lost."
             ),
             Self::Interlaced => write!(
                 f,
@@ -47,7 +47,7 @@ impl std::fmt::Display for Note {
             ),
             Self::Stretched { share } => write!(
                 f,
-                "The frames use {:.1} % of their files' range of brightness. Both are stretched alike.",
+                "The frames use only {:.1} % of the brightness range of their files. The contrast of both is stretched equally.",
                 100.0 * share
             ),
         }

@@ -10,8 +10,8 @@ use super::texture::{Pattern, Texture, palette};
 pub(super) const ENTRY: Entry = Entry {
     name: "blocks",
     title: "Marble blocks",
-    lesson: "Two blocks of the same marble as the floor: some of their edges cannot be seen, only \
-             seen to move. Their shadows move over the still floor, which no rigid motion explains.",
+    lesson: "Two blocks of the same marble as the floor. Some of their edges can be found only by \
+             motion. Their shadows move over the still floor, and no rigid motion explains them.",
     stage,
 };
 

@@ -12,8 +12,8 @@ use super::texture::{Pattern, Texture, palette};
 pub(super) const ENTRY: Entry = Entry {
     name: "carousel",
     title: "Turning bodies",
-    lesson: "Four regions, and rotation at work: a turning body translates to one side and turns back, \
-             and only both together tell its roundness.",
+    lesson: "Four regions with rotation. Each body moves to one side and rotates back. Only both \
+             motions together determine its shape.",
     stage,
 };
 

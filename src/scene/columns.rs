@@ -12,9 +12,9 @@ use super::texture::{Pattern, Texture, palette};
 pub(super) const ENTRY: Entry = Entry {
     name: "columns",
     title: "Walk past columns",
-    lesson: "No curve: all of it stands still and the camera passes, so that depth is the same unit \
-             everywhere, and leaps from a column to what it hides. The one to see through red-cyan \
-             glasses.",
+    lesson: "No curve: the scene stands still and the camera moves past it. So depth has the same \
+             unit everywhere. It changes abruptly at the edges of the columns. Look at this one \
+             through red-cyan glasses.",
     stage,
 };
 

@@ -10,8 +10,8 @@ use super::texture::{Pattern, Texture, palette};
 pub(super) const ENTRY: Entry = Entry {
     name: "figure",
     title: "Toy bear",
-    lesson: "One body with strong relief: muzzle, ears and bow tie stand out only if smoothing stops \
-             at depth edges. Compare the two kinds of depth smoothing here.",
+    lesson: "One body with strong relief. Nose, ears and bow tie stand out only if smoothing stops at \
+             depth edges. Compare the two kinds of smoothing here.",
     stage,
 };
 

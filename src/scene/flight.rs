@@ -11,8 +11,8 @@ use super::texture::{Pattern, Texture, palette, srgb};
 pub(super) const ENTRY: Entry = Entry {
     name: "flight",
     title: "Flight over hills",
-    lesson: "No curve at all: the camera alone moves, and one rigid motion explains every pixel. \
-             Depth runs from the slope below to the far ridge.",
+    lesson: "No curve: only the camera moves, and one rigid motion explains every pixel. Depth \
+             increases from the slope below to the far ridge.",
     stage,
 };
 

@@ -10,8 +10,8 @@ use super::texture::{Pattern, Texture, palette, srgb};
 pub(super) const ENTRY: Entry = Entry {
     name: "head",
     title: "Head before a wall",
-    lesson: "Cheeks and hair have almost no texture, so depth there is carried in from the features \
-             around them; the wall's texture is strong. The head moves back, which shrinks it.",
+    lesson: "Cheeks and hair have almost no texture, so their depth comes from the features around \
+             them, by smoothness. The head moves away from the camera, so its image shrinks.",
     stage,
 };
 

@@ -10,8 +10,8 @@ use super::texture::{Pattern, Texture, palette};
 pub(super) const ENTRY: Entry = Entry {
     name: "squares",
     title: "Two squares",
-    lesson: "The simplest case: three surfaces, three translations. Each curve must find the four \
-             corners of its square from motion alone, and each tilted square gets a depth of its own.",
+    lesson: "The simplest case: three surfaces with three translations. Each curve has to find the \
+             outline of its square by motion alone. Each tilted square gets its own depth.",
     stage,
 };
 

@@ -248,13 +248,13 @@ fn warnings(regions: &[RegionReport]) -> impl Iterator<Item = String> {
     };
     let vanished = regions.iter().filter(|r| r.pixels == 0);
     let vanished = vanished.map(|r| match r.label {
-        0 => "The curves have taken the whole frame: no background is left.".to_owned(),
+        0 => "The curves cover the whole frame. No background is left.".to_owned(),
         k => format!("Curve {k} has vanished: nothing moves differently where it was drawn."),
     });
     let present = || regions.iter().filter(|r| r.pixels > 0);
     let loose = present().filter(|r| !r.rigid).map(move |r| {
         let name = named(r.label);
-        format!("No rigid motion fits {name}: it bends, or several things move there.")
+        format!("No rigid motion fits {name}. It may bend, or several objects move in it.")
     });
     let parts = present().filter_map(move |r| {
         let (label, whole) = (r.label, named(r.part_of?));
@@ -267,9 +267,7 @@ fn warnings(regions: &[RegionReport]) -> impl Iterator<Item = String> {
             0 => "The background".to_owned(),
             k => format!("Region {k}"),
         };
-        format!(
-            "{name} has two explanations that fit equally well; the one with less relief is shown."
-        )
+        format!("{name}: two motions fit equally well. The one with less relief is shown.")
     });
     vanished.chain(loose).chain(parts).chain(ambiguous)
 }

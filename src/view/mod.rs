@@ -95,22 +95,22 @@ const CATALOGUE: [View; 12] = [
     View {
         kind: "depth",
         title: "Depth",
-        meaning: "Near is bright, far is dark; hatched where two frames do not tell depth.",
+        meaning: "Near is bright, far is dark. Hatched: depth cannot be determined from these two frames.",
     },
     View {
         kind: "relief",
         title: "Relief",
-        meaning: "The surface as if cast in plaster, lit by a lamp, cut along the curves.",
+        meaning: "The surface as a plaster cast under a lamp, cut along the curves.",
     },
     View {
         kind: "flow",
         title: "Motion",
-        meaning: "Where each pixel goes: hue is the direction, strength of colour the speed.",
+        meaning: "The motion of each pixel: hue is the direction, strength of colour the length.",
     },
     View {
         kind: "arrows",
         title: "Arrows",
-        meaning: "Where each pixel goes, as arrows lengthened to be seen.",
+        meaning: "The motion of each pixel as arrows, drawn longer than it is.",
     },
     View {
         kind: "anaglyph",
@@ -125,12 +125,12 @@ const CATALOGUE: [View; 12] = [
     View {
         kind: "confidence",
         title: "Confidence",
-        meaning: "How far depth is observable at each pixel: the palette's end fully, its beginning not at all.",
+        meaning: "How well depth is determined at each pixel: not at all at the beginning of the palette, fully at its end.",
     },
     View {
         kind: "occlusion",
         title: "Occlusion",
-        meaning: "What is hidden in the second frame, in colour over the dimmed frame.",
+        meaning: "Pixels that are hidden in the second frame, in colour over the dimmed frame.",
     },
 ];
 

@@ -78,7 +78,7 @@ describe("levels of brightness", () => {
     const words = ["--focal", "64", "--circle", "30,24,12"];
     const dark = relievo(...twelve, ...words, "--out", "dark");
     assert.equal(dark.status, 0, dark.stderr);
-    assert.match(dark.stdout, /^note: .*use \d\.\d % of their files' range/m);
+    assert.match(dark.stdout, /^note: .*use only \d\.\d % of the brightness range/m);
     const plain = relievo(String(first), String(second), ...words, "--out", "plain");
     assert.equal(plain.status, 0, plain.stderr);
     assert.doesNotMatch(plain.stdout, /range/);

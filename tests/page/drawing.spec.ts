@@ -271,7 +271,7 @@ test("a curve drawn while it runs joins in", async ({ opened: page }) => {
   await page.getByRole("button", { name: "Undo", exact: true }).click();
   await until(page, (state) => state.report!.regions.length === 3);
   expect(await read(page, (state) => state.running)).toBe(true);
-  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as it goes");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as possible");
   await until(page, (state) => !state.running);
   await expect(page.locator("#status")).toContainText("Converged");
   await expect(page.locator("#message")).toBeHidden();

@@ -392,7 +392,7 @@ test("what is wrong with a value stays said when the worker accepts the one befo
   });
   // The worker answers in turn, so that it has taken the focal length by now.
   await (await inSettings(page)).getByRole("button", { name: "Find f" }).click();
-  await expect((await inSettings(page)).locator("#camera")).toContainText("do not tell f");
+  await expect((await inSettings(page)).locator("#camera")).toContainText("do not determine f");
   await expect(message(page)).toContainText("between 0 and 180");
 });
 
@@ -416,7 +416,7 @@ test("the focal length is found where the frames tell it, and kept where they do
   const field = (await inSettings(page)).getByLabel("Focal length f, px");
   const usual = await field.inputValue();
   await find.click();
-  await expect((await inSettings(page)).locator("#camera")).toContainText("do not tell f");
+  await expect((await inSettings(page)).locator("#camera")).toContainText("do not determine f");
   expect(await field.inputValue()).toBe(usual);
 
   const [width, height, truth] = [240, 180, 3];
@@ -435,11 +435,11 @@ test("the focal length is found where the frames tell it, and kept where they do
     })),
   );
   await ownAreOpen(page);
-  await expect((await inSettings(page)).locator("#camera")).not.toContainText("do not tell f");
+  await expect((await inSettings(page)).locator("#camera")).not.toContainText("do not determine f");
   expect(await field.inputValue()).toBe(String(width));
   await find.click();
   await expect((await inSettings(page)).locator("#camera")).toContainText(
-    "as far as these frames tell",
+    "estimated from these frames",
     {
       timeout: PATIENCE,
     },

@@ -57,7 +57,7 @@ for (const [name, address, words] of [
   ["a camera", "./#blocks?f=-3", "its camera"],
   ["options", "./#blocks?c=&o=mu:1e99~nothing:3", "its options"],
   ["a view", "./#blocks/hologram", "hologram"],
-  ["view settings", "./#blocks/depth?c=&p=palette:__proto__", "how its view is set"],
+  ["view settings", "./#blocks/depth?c=&p=palette:__proto__", "the settings of its view"],
   ["escapes", "./#blocks/depth?c=%E0%A4%A&f=%", "its curves and its camera"],
 ] as const) {
   test(`a link with bad ${name} says so, and the rest holds`, async ({ page }) => {

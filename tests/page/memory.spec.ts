@@ -134,7 +134,7 @@ test("what is kept is said, and can be forgotten", async ({ opened: page }) => {
 test("a browser that keeps nothing is no hindrance", async ({ page }) => {
   await page.addInitScript(() => Object.defineProperty(window, "indexedDB", { value: undefined }));
   await open(page);
-  await expect(page.locator("#kept")).toContainText("keeps nothing");
+  await expect(page.locator("#kept")).toContainText("does not let the page keep anything");
   await solve(page);
   await openScene(page, "squares");
   await expect(page.locator("#message")).toBeHidden();

@@ -28,7 +28,7 @@ test("a run says what it does, shows a bar that grows, and the time left", async
   await page.getByRole("button", { name: "Run", exact: true }).click();
   await until(page, ({ report }) => (report?.iterations ?? 0) >= 2);
   await expect(bar).toBeVisible();
-  await expect(page.locator("#doing")).toContainText(/Finding outlines.*scale \d of 2/);
+  await expect(page.locator("#doing")).toContainText(/Estimating outlines.*scale \d of 2/);
   await expect(page.locator("#doing")).toContainText(/About .*left/);
   const values: number[] = [];
   while (await bar.isVisible()) {
@@ -46,7 +46,7 @@ test("a run says what it does, shows a bar that grows, and the time left", async
 
 test("as printed, too", async ({ opened: page }) => {
   await runLong(page);
-  await expect(page.locator("#doing")).toContainText("in turn");
+  await expect(page.locator("#doing")).toContainText("in every pass");
   await expect(page.getByRole("progressbar")).toBeVisible();
   const { violations } = await new AxeBuilder({ page }).analyze();
   expect(violations.map(({ id }) => id)).toEqual([]);
@@ -85,7 +85,7 @@ test("a view chosen in the middle of a long pass shows what the last one came to
     await route.fulfill({ response, body: `${SLOW}\n${await response.text()}` });
   });
   await open(page);
-  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as it goes");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as possible");
   await page.getByRole("button", { name: "Run", exact: true }).click();
   await until(page, ({ report }) => (report?.iterations ?? 0) >= 2);
   for (const [name, id] of [

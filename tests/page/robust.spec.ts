@@ -81,7 +81,7 @@ test("a hang can be cancelled, even with a focal length that no camera has", asy
   await until(page, (state) => (state.report?.iterations ?? 0) >= 1);
   // Pausing asks a worker that no longer listens; the page itself must still answer.
   await page.getByRole("radio", { name: "Depth", exact: true }).check({ force: true });
-  await expect(page.locator("#hint")).toContainText("hatched");
+  await expect(page.locator("#hint")).toContainText("Hatched");
   const focal = (await inSettings(page)).getByLabel("Focal length f, px");
   await focal.fill("0");
   await focal.press("Enter");
@@ -105,7 +105,7 @@ test("a core that cannot be loaded again can be once the line is back", async ({
   await page.waitForTimeout(1000);
   await page.route(/\.wasm$/, (route) => route.abort());
   await page.getByRole("button", { name: "Cancel" }).click();
-  await expect(message(page)).toContainText("core cannot be loaded", { timeout: PATIENCE });
+  await expect(message(page)).toContainText("solver cannot be loaded", { timeout: PATIENCE });
   await until(page, (state) => !state.running && state.busy === null && state.report === null);
   await page.unroute(/\.wasm$/);
   // The worker that could not load it says so once more; the next one can.
@@ -119,7 +119,7 @@ test("a core that cannot be loaded is said", async ({ page }) => {
   await page.route(/\.wasm$/, (route) => route.fulfill({ status: 404, body: "gone" }));
   await page.goto("./");
   await expect(page.locator("#message")).toBeVisible({ timeout: PATIENCE });
-  await expect(page.locator("#message")).toContainText("core cannot be loaded");
+  await expect(page.locator("#message")).toContainText("solver cannot be loaded");
 });
 
 test("never more than one progress is on its way", async ({ page }) => {
@@ -129,7 +129,7 @@ test("never more than one progress is on its way", async ({ page }) => {
   await chooseView(page, "Depth");
   // Far more passes in a second than the screen shows pictures.
   await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
-  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as it goes");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as possible");
   await page.getByRole("button", { name: "Run" }).click();
   await page.waitForFunction(
     () => {
@@ -233,7 +233,7 @@ test("a worker killed at any moment is told; frames, curves and settings are the
   await open(page);
   await (await inResult(page)).getByRole("button", { name: "Add a circle" }).click();
   await (await inSettings(page)).getByLabel("Preset").selectOption("paper");
-  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as it goes");
+  await (await inTransport(page)).getByLabel("Pace").selectOption("as fast as possible");
   const shapes = await read(page, (state) => state.shapes);
   const source = await read(page, (state) => state.source);
   let state = 7;

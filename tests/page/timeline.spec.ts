@@ -121,14 +121,14 @@ test("arrow keys step, the passes play, and a run is followed unless someone wen
       !running && timeline!.lines[0]!.energies.length === working?.iterations,
   );
   const last = await read(page, ({ timeline }) => timeline!.lines[0]!.energies.length);
-  await page.getByLabel("Time of a pass").selectOption("0.5 s a pass");
+  await page.getByLabel("Time for each pass").selectOption("0.5 s per pass");
   await page.getByRole("button", { name: "Play the passes" }).click();
   await until(page, ({ visit }) => (visit?.at ?? 0) >= 4);
   await page.keyboard.press("End");
   await slider(page).press("End");
   await until(page, ({ visit }) => visit === null);
   await expect(slider(page)).toHaveValue(String(last));
-  await page.getByRole("button", { name: "Back a pass" }).click();
+  await page.getByRole("button", { name: "Previous pass" }).click();
   await expect(slider(page)).toHaveValue(String(last - 1));
 });
 
@@ -141,7 +141,7 @@ test("a second line goes on with other settings, and both are compared", async (
   // What the last pass says is what it did.
   const last = await read(page, ({ report }) => report!.last!);
   if (last.stage === "steps") {
-    await expect(told(page)).toContainText(last.adopted > 0 ? "took it" : "nothing was changed");
+    await expect(told(page)).toContainText(last.adopted > 0 ? "adopted in" : "Nothing changed");
   }
   await chooseView(page, "Labels");
   const before = await picture(page);
@@ -210,8 +210,8 @@ test("where the settings allow no more, the curves alone go along, and that is s
   await until(page, ({ timeline }) => (timeline?.lines[1]?.energies.length ?? 0) >= 6);
   await pauseRun(page);
   await scrub(page, 6);
-  await expect(told(page)).toContainText("curves of pass 5 alone");
-  await expect(told(page)).toContainText("curves by (17)");
+  await expect(told(page)).toContainText("curves of pass 5 only");
+  await expect(told(page)).toContainText("(17) for curves");
   expect(await read(page, ({ shapes }) => shapes.map(({ kind }) => kind))).toEqual([
     "polygon",
     "polygon",

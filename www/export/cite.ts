@@ -1,11 +1,12 @@
 /** How to cite the method and this software. */
 
 import { version } from "../../package.json";
+import { later } from "../text/later";
 
 export const CITATIONS = [
   {
     id: "cite-method",
-    title: "The method",
+    title: later.exporting.method,
     bibtex: `@article{sekkati2006concurrent,
   author  = {Sekkati, Hicham and Mitiche, Amar},
   title   = {Concurrent {3-D} motion segmentation and {3-D} interpretation of temporal sequences of monocular images},
@@ -18,7 +19,7 @@ export const CITATIONS = [
   },
   {
     id: "cite-software",
-    title: "This software",
+    title: later.exporting.software,
     bibtex: `@software{relievo,
   author  = {{The Relievo authors}},
   title   = {Relievo: concurrent {3-D} motion segmentation and {3-D} interpretation of two frames of a film},

@@ -5,6 +5,7 @@ import { count } from "../format";
 import { button, openSheet, type Sheet } from "../intake/dialog";
 import { stagePicture } from "../stage/snapshot";
 import { store } from "../store";
+import { later } from "../text/later";
 import { awaited, viewOf } from "../views";
 import { bibliography, CITATIONS } from "./cite";
 import { film, lengthOf, scenes } from "./film";
@@ -12,9 +13,11 @@ import { fileOf, missing, nameOf, pictureOf, shots, stem, type Bytes } from "./g
 import { MEASURES, readme, SURFACE, type Item } from "./items";
 import { zipper } from "./zip";
 
+const { exporting, solveFilm } = later;
+
 export function openExport(): void {
   const given = new AbortController();
-  const sheet = openSheet("export-sheet", "Export", () => {
+  const sheet = openSheet("export-sheet", exporting.title, () => {
     given.abort();
     unwatch.forEach((end) => end());
   });
@@ -23,15 +26,15 @@ export function openExport(): void {
   let working = false;
   /** One thing at a time; what it comes to is said. */
   const doing = (work: () => Promise<string | null>) => async () => {
-    if (working) return say("One at a time: something is still being written.");
+    if (working) return say(exporting.oneAtATime);
     working = true;
     sheet.dialog.ariaBusy = "true";
-    say("Writing…");
+    say(exporting.writing);
     let done: string | null = null;
     try {
       done = await work();
     } catch (error) {
-      done = `It could not be written: ${(error as Error).message}.`;
+      done = exporting.failed((error as Error).message);
     }
     working = false;
     sheet.dialog.ariaBusy = "false";
@@ -51,26 +54,25 @@ export function openExport(): void {
   body.append(
     reason,
     section(
-      "Pictures",
+      exporting.pictures,
       row(picture.title, picture.line, picture.select, picture.press),
-      row("The stage", stage.line, stage.press),
+      row(exporting.stage, stage.line, stage.press),
     ),
-    section("Measurements", ...MEASURES.map((item) => rowOf(item))),
-    section("Surface", rowOf(SURFACE)),
+    section(exporting.measurements, ...MEASURES.map((item) => rowOf(item))),
+    section(exporting.surface, rowOf(SURFACE)),
     section(
-      "Film",
+      exporting.film,
       row(
-        "The solve",
+        exporting.solve,
         length,
-        fromResult("WebM", "The solve", () => filmed(sheet, given.signal)),
+        fromResult("WebM", exporting.solve, () => filmed(sheet, given.signal)),
       ),
     ),
-    section("Cite", ...CITATIONS.map((one) => citation(one, say))),
+    section(exporting.cite, ...CITATIONS.map((one) => citation(one, say))),
   );
-  const all = fromResult("Everything as one zip", "", () => everything(sheet, given.signal));
+  const all = fromResult(exporting.everything, "", () => everything(sheet, given.signal));
   all.classList.add("primary");
-  const inIt = "All files above, every view, the citations and a README that says what they are.";
-  foot.append(make("p", { class: "note" }, inIt), all);
+  foot.append(make("p", { class: "note" }, exporting.inIt), all);
 
   const unwatch = [
     store.watch(
@@ -124,7 +126,7 @@ type Doing = (work: () => Promise<string | null>) => () => Promise<void>;
 /** Any view at the frame's size, and the stage as it is on the screen. */
 function pictures(doing: Doing) {
   const select = make("select", { id: "export-view" });
-  const title = make("label", { for: select.id }, "Any view");
+  const title = make("label", { for: select.id }, exporting.anyView);
   const press = named(
     button(
       "PNG",
@@ -133,7 +135,7 @@ function pictures(doing: Doing) {
         return shot ? saved(await pictureOf(shot), nameOf(shot)) : null;
       }),
     ),
-    "Any view",
+    exporting.anyView,
   );
   const fill = () => {
     const chosen = select.value || nameOf({ of: "found", kind: presentKind(), title: "" });
@@ -146,7 +148,7 @@ function pictures(doing: Doing) {
     press.disabled = list.length === 0;
   };
   const { view, width, height } = store.state;
-  const whole = `At the frame's size, ${width}×${height} pixels, sRGB; a stereo pair is twice as wide.`;
+  const whole = exporting.atSize(width, height);
   const stage = named(
     button(
       "PNG",
@@ -155,10 +157,10 @@ function pictures(doing: Doing) {
         return blob && savedAs(blob, `${stem(store.state)}-${view}.png`);
       }),
     ),
-    "The stage",
+    exporting.stage,
   );
   stage.id = "save-view";
-  const line = `${viewOf(view).label} as on the screen: turned, zoomed, divided or captioned as it is.`;
+  const line = exporting.asOnScreen(viewOf(view).label);
   return [
     { select, title, press, fill, line: whole },
     { press: stage, line },
@@ -174,9 +176,9 @@ function presentKind(): string {
 
 function filmLine(): string {
   const list = scenes(store.state);
-  if (list.length === 0) return "No passes of this solve are kept.";
+  if (list.length === 0) return solveFilm.noPasses;
   const seconds = Math.round(lengthOf(list));
-  return `The outlines pass by pass, with the energy, as far as passes are kept: ${list.length} pictures in ${seconds} s.`;
+  return solveFilm.about(list.length, seconds);
 }
 
 async function filmed({ say }: Sheet, signal: AbortSignal): Promise<string | null> {
@@ -189,7 +191,7 @@ async function everything({ say }: Sheet, signal: AbortSignal): Promise<string |
   const zip = await zipper();
   const add = async (name: string, get: () => Promise<Bytes | null>) => {
     if (signal.aborted) return false;
-    say(`Writing ${name}…`);
+    say(exporting.writingFile(name));
     const bytes = await get();
     if (bytes) await zip.add(name, bytes);
     return bytes !== null;
@@ -214,16 +216,16 @@ function citation(
   { id, title, bibtex }: (typeof CITATIONS)[number],
   say: (text: string) => void,
 ): HTMLElement {
-  const text = make("pre", { id, role: "group", "aria-label": `${title}, BibTeX` }, bibtex);
+  const text = make("pre", { id, role: "group", "aria-label": exporting.bibtex(title) }, bibtex);
   const copy = named(
-    button("Copy BibTeX", async () => {
+    button(exporting.copy, async () => {
       try {
         await navigator.clipboard.writeText(bibtex);
-        say("BibTeX copied.");
+        say(exporting.copied);
       } catch {
         // Not allowed, or no clipboard.
         getSelection()?.selectAllChildren(text);
-        say("It is selected, to be copied by hand.");
+        say(exporting.copyByHand);
       }
     }),
     title,
@@ -242,10 +244,10 @@ function savedAs(blob: Blob, name: string): string {
   const address = URL.createObjectURL(blob);
   make("a", { href: address, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(address), 60_000);
-  return `${name} saved, ${size(blob.size)}.`;
+  return exporting.saved(name, size(blob.size));
 }
 
 function size(bytes: number): string {
-  if (bytes < 1e6) return `${count(Math.max(1, Math.round(bytes / 1e3)))} kB`;
-  return `${(bytes / 1e6).toFixed(1)} MB`;
+  if (bytes < 1e6) return exporting.kilobytes(count(Math.max(1, Math.round(bytes / 1e3))));
+  return exporting.megabytes((bytes / 1e6).toFixed(1));
 }

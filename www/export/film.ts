@@ -8,10 +8,13 @@
 import { viewer } from "../looking";
 import { drawContours } from "../stage/outline";
 import { store, type State } from "../store";
+import { later } from "../text/later";
 import { placeOf } from "../timeline/going";
 import { endOf, standingAt, type Line, type Timeline } from "../timeline/line";
 import { stretchesOf } from "../timeline/chart";
 import type { Pane } from "../stage/place";
+
+const words = later.solveFilm;
 
 /** A small frame is shown at a whole multiple of its size, up to about this width. */
 const WIDE = 960;
@@ -56,9 +59,9 @@ export async function film(
   const { source, timeline, frames } = state;
   const list = scenes(state);
   if (!source || !timeline || !frames || list.length === 0) {
-    return "There is no film: no passes of this solve are kept.";
+    return words.none;
   }
-  if (typeof VideoEncoder === "undefined") return NO_ENCODER;
+  if (typeof VideoEncoder === "undefined") return words.noEncoder;
   const {
     BufferTarget,
     CanvasSource,
@@ -71,7 +74,7 @@ export async function film(
   const pane = layOut(canvas, state);
   const size = { width: canvas.width, height: canvas.height };
   const codec = await getFirstEncodableVideoCodec(["vp9", "vp8", "av1"], size);
-  if (!codec) return NO_ENCODER;
+  if (!codec) return words.noEncoder;
 
   const { line } = placeOf(state);
   const output = new Output({ format: new WebMOutputFormat(), target: new BufferTarget() });
@@ -81,7 +84,7 @@ export async function film(
   const context = canvas.getContext("2d")!;
   let time = 0;
   for (const [i, { at, seconds }] of list.entries()) {
-    said(`Filming pass ${i + 1} of ${list.length}…`);
+    said(words.filming(i + 1, list.length));
     const nothing = { view: "", pictures: [], longest: 1, mesh: null };
     const drawn = await viewer.show(source, standingAt(timeline, { line, at })!, nothing);
     if (!drawn || signal.aborted) {
@@ -99,9 +102,6 @@ export async function film(
   await output.finalize();
   return new Blob([output.target.buffer!], { type: "video/webm" });
 }
-
-const NO_ENCODER =
-  "There is no film: this browser does not encode video. Current versions of Chrome, Edge and Firefox do.";
 
 /** Sizes the canvas, an even number of pixels each way, and tells where the frame lies on it. */
 function layOut(canvas: HTMLCanvasElement, { width, height }: Readonly<State>): Pane {
@@ -129,7 +129,7 @@ function drawLine(
   context.fillStyle = "#e8edec";
   context.font = `${Math.round(0.46 * height)}px system-ui, sans-serif`;
   context.textBaseline = "middle";
-  const text = at === timeline.first ? "Start" : `Pass ${at} of ${endOf(timeline, line)}`;
+  const text = at === timeline.first ? words.start : words.pass(at, endOf(timeline, line));
   context.fillText(text, 0.3 * height, top + height / 2);
 
   const left = 0.36 * width;
@@ -159,6 +159,6 @@ function drawLine(
   }
   context.fillStyle = "#a4b0b2";
   context.textAlign = "right";
-  context.fillText("Energy", left - 0.2 * height, top + height / 2);
+  context.fillText(words.energy, left - 0.2 * height, top + height / 2);
   context.textAlign = "left";
 }

@@ -2,8 +2,11 @@
 
 import { askShown } from "../session";
 import { store, type State } from "../store";
+import { later } from "../text/later";
 import { wantedParams } from "../views";
 import type { Whose } from "../worker/protocol";
+
+const { exporting } = later;
 
 export type Bytes = Uint8Array<ArrayBuffer>;
 
@@ -29,8 +32,12 @@ export function shots({ catalogues, truth, started }: Readonly<State>): Shot[] {
   const known = all.filter(({ kind }) => TRUE.includes(kind));
   return [
     ...found,
-    ...known.map(({ kind, title }): Shot => ({ of: "truth", kind, title: `${title}, the truth` })),
-    { of: "horn-schunck", kind: "flow", title: "Motion, Horn–Schunck" },
+    ...known.map(({ kind, title }): Shot => ({
+      of: "truth",
+      kind,
+      title: exporting.ofTruth(title),
+    })),
+    { of: "horn-schunck", kind: "flow", title: exporting.baseline },
   ];
 }
 
@@ -56,10 +63,10 @@ export function missing({
   started,
   running,
 }: Readonly<State>): string {
-  if (!frames) return "Open a sequence or two frames first.";
-  if (!catalogues || playing) return "A recording is being shown: wait until the solver is there.";
-  if (running) return "The solver is at work: pause it, or wait until it is done.";
-  return started ? "" : "Run the solver first: there is no result yet.";
+  if (!frames) return exporting.noFrames;
+  if (!catalogues || playing) return exporting.recording;
+  if (running) return exporting.atWork;
+  return started ? "" : exporting.notRun;
 }
 
 /** A name for files of what is open. */

@@ -9,6 +9,7 @@ import { byId, make } from "../dom";
 import { takePicture } from "../stage/snapshot";
 import { SharpCanvas } from "../stage/canvas";
 import { store, type State } from "../store";
+import { text } from "../text";
 
 /** Each eye's picture is shown for so long: six in a second. */
 const TURN_MS = 166;
@@ -26,7 +27,7 @@ export function mountGlasses(): void {
   const canvas = new SharpCanvas(element, paint);
   const method = make("p", { class: "method" });
   const pause = make("button", { type: "button", class: "tool wiggle" });
-  const whole = make("button", { type: "button", class: "tool" }, "Full screen");
+  const whole = make("button", { type: "button", class: "tool" }, text.glasses.full);
   const bar = make("div", { class: "glasses-bar", hidden: true }, method, pause, whole);
   stage.append(bar);
 
@@ -37,7 +38,7 @@ export function mountGlasses(): void {
   });
   whole.hidden = !document.fullscreenEnabled;
   document.addEventListener("fullscreenchange", () => {
-    whole.textContent = document.fullscreenElement ? "Leave full screen" : "Full screen";
+    whole.textContent = document.fullscreenElement ? text.glasses.leaveFull : text.glasses.full;
   });
 
   const turn = (on: boolean) => {
@@ -49,7 +50,7 @@ export function mountGlasses(): void {
         canvas.invalidate();
       }, TURN_MS);
     }
-    pause.textContent = on ? "Stop wiggling" : "Wiggle";
+    pause.textContent = on ? text.glasses.stop : text.glasses.wiggle;
   };
   const still = matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -65,9 +66,7 @@ export function mountGlasses(): void {
       const { view, viewParams } = state;
       element.hidden = !paired(state);
       element.ariaLabel =
-        viewParams.presentation === "wiggle"
-          ? "Left and right eye's picture in turn"
-          : "Left and right eye's picture side by side";
+        viewParams.presentation === "wiggle" ? text.glasses.inTurn : text.glasses.besideEachOther;
       // Places and pixels of one picture mean nothing on two.
       for (const id of ["overlay", "zoom"]) byId(id).hidden = paired(state) || view === "relief";
       bar.hidden = view !== "anaglyph" && view !== "relief";

@@ -1,5 +1,6 @@
 /** One still picture as the core takes it: as it is, or as a PNG where only the browser reads it. */
 
+import { text } from "../text";
 import type { FrameFile } from "../worker/protocol";
 import { pngOf } from "./film";
 import { formatOf } from "./formats";
@@ -7,7 +8,7 @@ import { formatOf } from "./formats";
 /** Reads a file; rejects with a sentence. */
 export async function bytesOf(file: File, name = file.name): Promise<Uint8Array<ArrayBuffer>> {
   const gone = () => {
-    throw new Error(`${name} cannot be read; it may be a folder, or have been moved or deleted`);
+    throw new Error(text.files.unreadable(name));
   };
   return new Uint8Array(await file.arrayBuffer().catch(gone));
 }
@@ -23,13 +24,8 @@ export async function admit(file: File, unnamed: string): Promise<FrameFile> {
   const picture =
     format.reader === "foreign" ? null : await createImageBitmap(blob).catch(() => null);
   if (!picture) {
-    const who =
-      format.reader === "foreign" ? "which is not opened here" : "which this browser does not open";
-    throw new Error(
-      `${name} is ${article(format.name)} ${format.name} file, ${who}; save it as JPEG, PNG or TIFF first`,
-    );
+    const { notHere, notInBrowser } = text.files;
+    throw new Error((format.reader === "foreign" ? notHere : notInBrowser)(name, format.name));
   }
   return pngOf(name, picture);
 }
-
-const article = (name: string) => (/^[AEIO]/.test(name) ? "an" : "a");

@@ -1,5 +1,6 @@
 /** An animated GIF, PNG, WebP or AVIF, taken apart by the browser. */
 
+import { text } from "../text";
 import { fitted, pngOf, queue, type Film } from "./film";
 import type { Format } from "./formats";
 
@@ -8,9 +9,7 @@ export async function openAnimation(file: File, { name, type }: Format): Promise
   if (typeof ImageDecoder === "undefined" || !(await ImageDecoder.isTypeSupported(type))) {
     // Most GIFs do move, but this one may not.
     if (name === "GIF") return null;
-    throw new Error(
-      `${file.name} is an animated ${name}, which this browser does not take apart; save two of its frames as PNG and open those`,
-    );
+    throw new Error(text.files.notTakenApart(file.name, name));
   }
   const decoder = new ImageDecoder({ data: await file.arrayBuffer(), type });
   // Only then is the number of frames known, and grows no more.
@@ -33,7 +32,7 @@ class Animation implements Film {
   ) {}
 
   label(index: number): string {
-    return `frame ${index + 1}`;
+    return text.files.frame(index + 1);
   }
 
   picture(index: number, longest: number): Promise<ImageBitmap> {

@@ -5,9 +5,12 @@
  */
 
 import { make } from "../dom";
+import { later } from "../text/later";
 import { button, openSheet } from "./dialog";
 import type { Film } from "./film";
 import { shotsFilm, type Shot } from "./shots";
+
+const words = later.camera;
 
 /** Shots of one press, and the time between them. */
 const SEVERAL = 12;
@@ -20,7 +23,7 @@ export async function openCamera(taken: (film: Film) => void): Promise<void> {
   const shots: Shot[] = [];
   let stream: MediaStream | null = null;
   let open = true;
-  const sheet = openSheet("camera-sheet", "Take two frames with the camera", () => {
+  const sheet = openSheet("camera-sheet", words.title, () => {
     open = false;
     stop();
     // Handed on, they are the film's.
@@ -35,20 +38,16 @@ export async function openCamera(taken: (film: Film) => void): Promise<void> {
   const choice = make(
     "label",
     { class: "field", hidden: true },
-    make("span", {}, "Camera"),
+    make("span", {}, words.camera),
     cameras,
   );
-  const several = button("Take several", takeSeveral);
-  const one = button("Take a shot", takeOne, "primary");
-  const cancel = button("Cancel", () => sheet.close());
+  const several = button(words.several, takeSeveral);
+  const one = button(words.one, takeOne, "primary");
+  const cancel = button(words.cancel, () => sheet.close());
   sheet.body.append(
     make("div", { class: "camera-stage" }, video, held),
     choice,
-    make(
-      "p",
-      { class: "note" },
-      "Two shots from slightly different places, or of something that moves; or several at one press, of which two are proposed. Nothing leaves this device.",
-    ),
+    make("p", { class: "note" }, words.note),
   );
   sheet.foot.append(cancel, several, one);
   one.disabled = several.disabled = true;
@@ -58,7 +57,7 @@ export async function openCamera(taken: (film: Film) => void): Promise<void> {
   async function start(id?: string): Promise<void> {
     stop();
     one.disabled = several.disabled = true;
-    sheet.say("Waiting for the camera…");
+    sheet.say(words.waiting);
     try {
       stream = await ask(id);
       if (!open) return stop();
@@ -83,7 +82,7 @@ export async function openCamera(taken: (film: Film) => void): Promise<void> {
     const present = stream?.getVideoTracks()[0]?.getSettings().deviceId;
     cameras.replaceChildren(
       ...known.map(({ deviceId, label }, i) =>
-        make("option", { value: deviceId }, label || `Camera ${i + 1}`),
+        make("option", { value: deviceId }, label || words.unnamed(i + 1)),
       ),
     );
     if (present) cameras.value = present;
@@ -103,9 +102,7 @@ export async function openCamera(taken: (film: Film) => void): Promise<void> {
   }
 
   function ready(): string {
-    return shots.length === 0
-      ? "Ready for the first shot."
-      : "One shot is taken. Move a little, then take the second.";
+    return shots.length === 0 ? words.ready : words.second;
   }
 
   async function takeOne(): Promise<void> {
@@ -117,7 +114,7 @@ export async function openCamera(taken: (film: Film) => void): Promise<void> {
   async function takeSeveral(): Promise<void> {
     one.disabled = several.disabled = true;
     for (let i = 0; i < SEVERAL && open; i++) {
-      sheet.say(`Taking shot ${i + 1} of ${SEVERAL}…`);
+      sheet.say(words.taking(i + 1, SEVERAL));
       const next = new Promise((over) => setTimeout(over, BETWEEN_MS));
       await shoot();
       await next;
@@ -142,16 +139,16 @@ async function ask(id?: string): Promise<MediaStream> {
 function trouble({ name, message }: Error): string {
   switch (name) {
     case "NotAllowedError":
-      return "This page may not use the camera. Allow it in the browser's settings for this page, then open this dialog again.";
+      return words.forbidden;
     case "NotFoundError":
     case "OverconstrainedError":
-      return "No camera was found. Connect one, or open a clip or two photos instead.";
+      return words.notFound;
     case "NotReadableError":
     case "AbortError":
-      return "The camera cannot be used: another program may have it. Close that, then open this dialog again.";
+      return words.inUse;
     case "InsecureContext":
-      return "Browsers lend the camera only to pages that are served by https or from this machine. Open a clip or two photos instead.";
+      return words.insecure;
     default:
-      return `The camera cannot be used (${message || name}). Open a clip or two photos instead.`;
+      return words.broken(message || name);
   }
 }

@@ -2,6 +2,7 @@
 
 import { byId, icon, make } from "../dom";
 import { store } from "../store";
+import { text } from "../text";
 
 export interface Sheet {
   dialog: HTMLDialogElement;
@@ -22,7 +23,7 @@ export function openSheet(id: string, title: string, closed: () => void): Sheet 
   closePresent();
   const heading = make("h2", { id: `${id}-title` }, title);
   const close = make("button", { type: "button", class: "quiet icon-only" });
-  close.append(icon("close"), make("span", { class: "visually-hidden" }, "Close"));
+  close.append(icon("close"), make("span", { class: "visually-hidden" }, text.page.close));
   const wrong = make("p", { class: "sheet-wrong", role: "alert", hidden: true });
   const status = make("p", { class: "sheet-status", role: "status" });
   const body = make("div", { class: "sheet-body" });

@@ -8,6 +8,7 @@ import { make } from "../dom";
 import { percent } from "../format";
 import { ask } from "../session";
 import { store } from "../store";
+import { later } from "../text/later";
 import { sentence } from "../wording";
 import type { Displacement } from "../worker/protocol";
 import { button, openSheet } from "./dialog";
@@ -21,7 +22,7 @@ const SHOWN = 960;
 
 type Side = 0 | 1;
 const SIDES = [0, 1] as const;
-const NAMES = ["First frame", "Second frame"] as const;
+const words = later.strip;
 
 /** Opens the filmstrip at two frames, or at a proposal; `take` opens a pair and tells whether it is any good. */
 export function openFilmstrip(
@@ -36,28 +37,22 @@ export function openFilmstrip(
   let choices = 0;
   let open = true;
 
-  const sheet = openSheet("filmstrip", `Choose two frames of ${film.name}`, () => {
+  const sheet = openSheet("filmstrip", words.title(film.name), () => {
     open = false;
   });
   const views = SIDES.map((side) => view(side, film, activate, (index) => choose(side, index)));
   const strip = mountStrip(film, (index) => choose(active, index));
-  const keys = "Keys: 1 and 2 choose the number, comma and full stop step by one frame.";
   sheet.body.append(
     make("div", { class: "film-pair" }, views[0]!.element, views[1]!.element),
     strip.element,
-    make(
-      "p",
-      { class: "note" },
-      "A picture of the row takes the chosen number. ",
-      make("span", { class: "with-keys" }, keys),
-    ),
+    make("p", { class: "note" }, `${words.row} `, make("span", { class: "with-keys" }, words.keys)),
   );
-  const proposing = button("Propose the second", () => {
+  const proposing = button(words.propose, () => {
     byHand = false;
     look();
   });
-  const cancel = button("Cancel", () => sheet.close());
-  const opening = button("Open these two", openPair, "primary");
+  const cancel = button(words.cancel, () => sheet.close());
+  const opening = button(words.open, openPair, "primary");
   sheet.foot.append(proposing, cancel, opening);
   sheet.dialog.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
@@ -115,8 +110,8 @@ export function openFilmstrip(
   /** Says what moves between the two frames that are chosen. */
   async function tell(): Promise<void> {
     const mine = choices;
-    if (chosen[0] === chosen[1]) return sheet.say("These are one and the same frame.");
-    sheet.say("Measuring the motion between them…");
+    if (chosen[0] === chosen[1]) return sheet.say(words.same);
+    sheet.say(words.measuring);
     // A hand that moves on needs no answer.
     await new Promise((next) => setTimeout(next, 150));
     if (!open || mine !== choices) return;
@@ -125,10 +120,10 @@ export function openFilmstrip(
   }
 
   async function proposeSecond(): Promise<void> {
-    if (film.count < 2) return sheet.say("This film has but one frame.");
+    if (film.count < 2) return sheet.say(words.onlyOne);
     choices += 1;
     const mine = choices;
-    sheet.say("Looking for a second frame…");
+    sheet.say(words.looking);
     await new Promise((next) => setTimeout(next, 150));
     const stale = () => !open || mine !== choices;
     if (stale()) return;
@@ -145,7 +140,7 @@ export function openFilmstrip(
 
   async function openPair(): Promise<void> {
     opening.disabled = true;
-    sheet.say("Opening these two frames…");
+    sheet.say(words.opening);
     const good = await take([...chosen]).catch((error: Error) => {
       store.update({ message: error.message });
       return false;
@@ -168,18 +163,15 @@ async function measure(film: Film, first: number, second: number): Promise<Displ
 }
 
 function wording(motion: Displacement | null): string {
-  if (!motion) return "These two differ in size, so that motion between them cannot be measured.";
+  if (!motion) return words.sizes;
   const { share, verdict } = motion;
-  const moves = `Between them the faster things move by ${percent(share)} of the frame`;
   switch (verdict) {
     case "fit":
-      return `${moves}: enough to see depth by, little enough to follow.`;
+      return words.fit(percent(share));
     case "small":
-      return share < 0.0005
-        ? "Nothing moves between them."
-        : `${moves}. Further apart, depth would show better.`;
+      return share < 0.0005 ? words.still : words.small(percent(share));
     case "large":
-      return "Too much changes between them to be followed. Take two that are closer together.";
+      return words.large;
   }
 }
 
@@ -197,7 +189,7 @@ function view(
   activate: (side: Side) => void,
   choose: (index: number) => void,
 ): View {
-  const name = NAMES[side];
+  const name = words.frames[side];
   const canvas = make("canvas", { "aria-hidden": "true" });
   const when = make("span", { class: "when" });
   const radio = make("input", { type: "radio", name: "film-side", id: `film-side-${side}` });
@@ -208,16 +200,16 @@ function view(
   slider.id = `film-slider-${side}`;
   slider.setAttribute("aria-label", name);
   slider.addEventListener("input", () => choose(Number(slider.value)));
-  const step = (by: number, sign: string, word: string) => {
+  const step = (by: number, sign: string, name: string) => {
     const press = () => choose(Number(slider.value) + by);
     const element = button("", press, "icon-only");
     element.append(
       make("span", { "aria-hidden": "true" }, sign),
-      make("span", { class: "visually-hidden" }, `${name}: one ${word}`),
+      make("span", { class: "visually-hidden" }, name),
     );
     return element;
   };
-  const [earlier, later] = [step(-1, "‹", "earlier"), step(1, "›", "later")];
+  const [earlier, later] = [step(-1, "‹", words.earlier(name)), step(1, "›", words.later(name))];
   canvas.addEventListener("click", () => activate(side));
   const element = make(
     "div",
@@ -237,7 +229,7 @@ function view(
   return {
     element,
     show(index) {
-      const place = `${index + 1} of ${film.count}`;
+      const place = words.place(index + 1, film.count);
       slider.value = String(index);
       slider.setAttribute("aria-valuetext", `${place}, ${film.label(index)}`);
       when.textContent = `${film.label(index)} · ${place}`;

@@ -3,6 +3,7 @@
 import { announce } from "../dom";
 import { ask, follow, run } from "../session";
 import { store, type State } from "../store";
+import { text } from "../text";
 import type { FrameFile } from "../worker/protocol";
 import type { Film } from "./film";
 import { slotOf, takePair } from "./slots";
@@ -16,7 +17,7 @@ export function keep(film: Film): void {
 
 /** Asks for two frames of a film, and opens them. */
 export async function chooseFrom(film: Film): Promise<void> {
-  const loaded = await ask("Opening the filmstrip", () => import("./filmstrip"));
+  const loaded = await ask(text.frames.openingStrip, () => import("./filmstrip"));
   if (!loaded) return;
   const { reel } = store.state;
   const at = reel?.film === film ? reel.pair?.at : undefined;
@@ -32,7 +33,7 @@ async function takeFrames(film: Film, at: [number, number]): Promise<boolean> {
 }
 
 function noteOn(film: Film, [i, j]: [number, number]): string {
-  return `From ${film.name}: ${film.label(i)} and ${film.label(j)}.`;
+  return text.files.fromFilm(film.name, film.label(i), film.label(j));
 }
 
 /** The frame after the pair on the stage, as far from its second as that from its first; `null` where there is none. */
@@ -52,7 +53,7 @@ export async function nextPair(): Promise<void> {
   const { film, pair } = reel;
   const [, second] = pair.files;
   const at: [number, number] = [pair.at[1], next];
-  const slot = await slotOf(() => film.file(next), `Reading ${film.label(next)}`);
+  const slot = await slotOf(() => film.file(next), text.files.reading(film.label(next)));
   if (!slot) return;
   const { name, bytes } = slot;
   const file = { name, bytes };
@@ -61,6 +62,6 @@ export async function nextPair(): Promise<void> {
     reel: { film, pair: { at, files: [second, file] } },
     slots: [store.state.slots[1], slot],
   });
-  announce(`${film.label(at[0])} and ${film.label(at[1])} are open.`);
+  announce(text.files.areOpen(film.label(at[0]), film.label(at[1])));
   await run();
 }

@@ -7,6 +7,7 @@
 
 import { ask, open } from "../session";
 import { store, type Slot, type State } from "../store";
+import { text } from "../text";
 import type { FrameFile } from "../worker/protocol";
 
 /** Longest side of the small picture of a frame, pixels. */
@@ -27,14 +28,14 @@ export async function openBoth(note?: string): Promise<boolean> {
   // Copies, since the worker may be restarted and need them again.
   const file = ({ name, bytes }: Slot) => ({ name, bytes });
   const pair = { kind: "files" as const, first: file(first), second: file(second) };
-  return open(note ? { ...pair, note } : pair, "Opening your frames");
+  return open(note ? { ...pair, note } : pair, text.frames.opening);
 }
 
 /** Takes a pair at once. */
 export async function takePair(files: [FrameFile, FrameFile], note: string): Promise<boolean> {
   const slots: Slot[] = [];
   for (const file of files) {
-    const slot = await slotOf(async () => file, `Reading ${file.name}`);
+    const slot = await slotOf(async () => file, text.files.reading(file.name));
     if (!slot) return false;
     slots.push(slot);
   }

@@ -1,7 +1,10 @@
 /** A row of pictures along a film, evenly spaced, with the two chosen frames marked on it. */
 
 import { make } from "../dom";
+import { later } from "../text/later";
 import type { Film } from "./film";
+
+const words = later.strip;
 
 /** Width that a picture takes at least, and that it is fetched at, pixels. */
 const LEAST = 78;
@@ -29,7 +32,7 @@ export function mountStrip(film: Film, choose: (index: number) => void): Strip {
   const flags = [1, 2].map((n) =>
     make("b", { class: "film-flag film-number", "aria-hidden": "true" }, String(n)),
   );
-  const element = make("div", { class: "film-strip", role: "group", "aria-label": "The film" });
+  const element = make("div", { class: "film-strip", role: "group", "aria-label": words.film });
   element.append(...buttons.map((one) => one.element), ...flags);
   if (buttons[0]) buttons[0].element.tabIndex = 0;
   element.addEventListener("keydown", (event) => {
@@ -63,10 +66,10 @@ export function mountStrip(film: Film, choose: (index: number) => void): Strip {
     element,
     mark(chosen) {
       for (const { index, element } of buttons) {
-        const words = [`Frame ${index + 1}, ${film.label(index)}`];
-        if (index === chosen[0]) words.push("the first");
-        if (index === chosen[1]) words.push("the second");
-        element.setAttribute("aria-label", words.join(", "));
+        const said = [words.frame(index + 1, film.label(index))];
+        if (index === chosen[0]) said.push(words.isFirst);
+        if (index === chosen[1]) said.push(words.isSecond);
+        element.setAttribute("aria-label", said.join(", "));
       }
       const same = chosen[0] === chosen[1];
       for (const [side, flag] of flags.entries()) {

@@ -5,6 +5,7 @@
 
 import { ask, overtaken } from "../session";
 import { store, type Slot } from "../store";
+import { text } from "../text";
 import { admit, bytesOf } from "./admit";
 import { openAnimation } from "./animation";
 import type { Film } from "./film";
@@ -53,8 +54,8 @@ async function takeFrames(files: File[], side: 0 | 1 | null, then: Before): Prom
 
 /** The film that the files make; `null` when they are one or two still pictures. */
 async function filmOf(files: File[]): Promise<Film | null | undefined> {
-  const phrase =
-    files.length === 1 ? `Reading ${files[0]!.name || "a picture"}` : "Reading the files";
+  const { reading, readingAll, unnamed } = text.files;
+  const phrase = files.length === 1 ? reading(files[0]!.name || unnamed) : readingAll;
   const answer = await ask(phrase, async () => {
     const films: Film[] = [];
     for (const file of files) {
@@ -64,7 +65,7 @@ async function filmOf(files: File[]): Promise<Film | null | undefined> {
     if (files.length === 1 || films.length === 0) return [films[0] ?? null];
     const { name } = films[0]!;
     films.forEach((film) => film.close());
-    throw new Error(`${name} holds many frames by itself; open it alone, without other files`);
+    throw new Error(text.files.alone(name));
   });
   if (!answer) return undefined;
   if (answer[0] || files.length < 3) return answer[0]!;
@@ -99,8 +100,9 @@ async function takeStills(files: File[], side: 0 | 1 | null, then: Before): Prom
   // paired with an older frame.
   const taken: Slot[] = [];
   for (const [i, file] of files.entries()) {
-    const unnamed = at + i === 0 ? "first frame" : "second frame";
-    const slot = await slotOf(() => admit(file, unnamed), `Reading ${file.name || unnamed}`);
+    const unnamed = text.files.unnamedFrames[at + i === 0 ? 0 : 1];
+    const phrase = text.files.reading(file.name || unnamed);
+    const slot = await slotOf(() => admit(file, unnamed), phrase);
     if (!slot) return;
     taken.push(slot);
   }
@@ -116,11 +118,11 @@ async function takeViews(file: File, then: Before): Promise<boolean> {
   const bytes = await bytesOf(file);
   const [first, second] = (await ask(null, (service) => service.views(bytes))) ?? [];
   if (!first || !second || overtaken(then)) return false;
-  const named = (which: string, bytes: Uint8Array<ArrayBuffer>) => ({
-    name: `${file.name}, ${which} view`,
+  const { view, twoViews } = text.files;
+  const pair = [first, second].map((bytes, i) => ({
+    name: view(file.name, i === 0 ? 0 : 1),
     bytes,
-  });
-  const note = `Two views from one file, ${file.name}: opened as a pair. Whatever stood still has one motion, and no curve is needed.`;
-  await takePair([named("first", first), named("second", second)], note);
+  }));
+  await takePair([pair[0]!, pair[1]!], twoViews(file.name));
   return true;
 }

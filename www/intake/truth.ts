@@ -6,6 +6,7 @@
 import { announce } from "../dom";
 import { ask, takeTruth } from "../session";
 import { store } from "../store";
+import { text } from "../text";
 import type { FrameFile } from "../worker/protocol";
 import { bytesOf } from "./admit";
 
@@ -51,7 +52,7 @@ export async function partTruth(files: File[]): Promise<{ truth: Known[]; rest: 
 }
 
 function known(files: File[], said: boolean) {
-  return ask("Reading the truth", async (service) => {
+  return ask(text.truth.reading, async (service) => {
     const read = await Promise.all(
       files.map(async (file) => ({ name: file.name, bytes: await bytesOf(file) })),
     );
@@ -72,9 +73,7 @@ export async function attach(files: Known[]): Promise<void> {
   const { source, title } = store.state;
   const names = files.map(({ file }) => file.name).join(", ");
   if (source?.kind !== "files") {
-    store.update({
-      message: `${names}: a truth of two frames, but the stage has ${title || "no frames"}, which brings its own. Open the two frames first, then give their truth.`,
-    });
+    store.update({ message: text.truth.noFrames(names, title) });
     return;
   }
   const given = new Set(files.map(({ kind }) => subject(kind)));
@@ -84,7 +83,7 @@ export async function attach(files: Known[]): Promise<void> {
   });
   for (const { file, kind } of files) kindOf.set(file, kind);
   const done = await takeTruth([...before, ...files.map(({ file }) => file)]);
-  if (done) announce(`Truth taken: ${names}.`);
+  if (done) announce(text.truth.taken(names));
 }
 
 /** What each file of a truth is, for as long as the page is open; of one that was kept nothing is known, and it goes. */

@@ -5,41 +5,13 @@
 
 import type { EncodedPacketSink, Input, InputVideoTrack } from "mediabunny";
 
+import { later } from "../text/later";
+import { CODECS } from "./codecs";
 import { clock, drawn, pngOf, queue, type Film } from "./film";
 import { Player } from "./player";
 
 /** Frames of a clip that are looked through: a quarter of an hour at 120 a second. */
 const MOST = 108_000;
-
-/** What people call the codecs, by mediabunny's name or the container's. */
-const CODECS: Record<string, string> = {
-  avc: "H.264",
-  hevc: "HEVC (H.265)",
-  hvc1: "HEVC (H.265)",
-  hev1: "HEVC (H.265)",
-  vvc1: "VVC (H.266)",
-  dvh1: "Dolby Vision (HEVC)",
-  dvhe: "Dolby Vision (HEVC)",
-  av1: "AV1",
-  vp9: "VP9",
-  vp8: "VP8",
-  prores: "Apple ProRes",
-  apch: "Apple ProRes",
-  apcn: "Apple ProRes",
-  apcs: "Apple ProRes",
-  apco: "Apple ProRes",
-  ap4h: "Apple ProRes",
-  ap4x: "Apple ProRes",
-  mp4v: "MPEG-4 Part 2",
-  jpeg: "Motion JPEG",
-  mjpg: "Motion JPEG",
-  mjpa: "Motion JPEG",
-  s263: "H.263",
-  V_MPEG2: "MPEG-2",
-  V_MJPEG: "Motion JPEG",
-  V_PRORES: "Apple ProRes",
-  V_THEORA: "Theora",
-};
 
 /** Opens a clip; rejects with a sentence when the browser does not play it. */
 export async function openVideo(file: File, container: string): Promise<Film> {
@@ -53,8 +25,8 @@ export async function openVideo(file: File, container: string): Promise<Film> {
 }
 
 function unplayable(name: string, container: string, codec: string | null): string {
-  const what = codec ? `is encoded as ${codec}` : `is of the kind ${container}`;
-  return `${name} ${what}, which this browser does not play; open it in another browser, or convert it to MP4 with H.264 first, as the free ffmpeg or HandBrake do`;
+  const { encoded, unknown } = later.clips;
+  return codec ? encoded(name, codec) : unknown(name, container);
 }
 
 /** The clip, where the browser decodes it, and its codec, where the container is understood. */
@@ -122,7 +94,7 @@ class Clip implements Film {
   picture(index: number, longest: number): Promise<ImageBitmap> {
     return this.inTurn(async () => {
       const sample = await this.sample(this.times[index]!);
-      if (!sample) throw new Error(`${this.name} cannot be decoded at ${this.label(index)}`);
+      if (!sample) throw new Error(later.clips.notDecoded(this.name, this.label(index)));
       const { displayWidth, displayHeight } = sample;
       try {
         return drawn(displayWidth, displayHeight, longest, (context, width, height) =>

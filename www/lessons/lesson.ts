@@ -1,5 +1,6 @@
 /**
- * A lesson as data: an HTML file of steps, each with text and the state of the page that it speaks of.
+ * A lesson as data: an HTML file of steps, each with text and the state of the page that it speaks of, in a folder for each
+ * language. Their titles are in `www/text`.
  *
  *     <article data-title="…">
  *       <section data-state="#blocks/motion?o=preset:paper" data-solve="run" data-term="data"> … </section>
@@ -9,6 +10,8 @@
  * `data-state` is a link as the page itself makes them (`memory/link.ts`). `data-solve` says what is done with it: `run`,
  * a number of passes, or nothing. `data-beside` is an option with which it is solved once more, to stand beside that. `data-term` names the term of (7) that the step is about.
  */
+
+import { text } from "../text";
 
 /** A step of a lesson. */
 export interface Step {
@@ -32,27 +35,22 @@ export interface Lesson {
 }
 
 /** In the order in which they are taught. */
-export const LESSONS: readonly { id: string; title: string }[] = [
-  { id: "aperture", title: "The aperture problem" },
-  { id: "rigid", title: "The rigid constraint" },
-  { id: "scale", title: "Why only T/Z" },
-  { id: "weights", title: "What each weight does" },
-  { id: "diffusion", title: "Smoothing by (11) or by (12)" },
-  { id: "start", title: "The start does not matter, until it does" },
-  { id: "still", title: "A still camera sees no depth" },
-  { id: "small", title: "Small objects and rotation" },
-  { id: "occlusion", title: "Occlusion" },
-  { id: "scales", title: "Large motion and scales" },
-  { id: "flow", title: "Depth from motion against Horn–Schunck" },
-  { id: "anaglyph", title: "How an anaglyph works" },
-];
+const ORDER = [
+  ...["aperture", "rigid", "scale", "weights", "diffusion", "start"],
+  ...["still", "small", "occlusion", "scales", "flow", "anaglyph"],
+] as (keyof typeof text.lessons.titles)[];
 
-const files = import.meta.glob<string>("./*.html", { query: "?raw", import: "default" });
+export const LESSONS = ORDER.map((id) => ({ id, title: text.lessons.titles[id] }));
+
+const files = import.meta.glob<string>(["./*.html", "./*/*.html"], {
+  query: "?raw",
+  import: "default",
+});
 
 /** Loads a lesson; `null` when there is none of that name. */
 export async function lessonOf(id: string): Promise<Lesson | null> {
   const known = LESSONS.find((lesson) => lesson.id === id);
-  const load = files[`./${id}.html`];
+  const load = files[`./${text.language}/${id}.html`];
   return known && load ? parsed(known, await load()) : null;
 }
 

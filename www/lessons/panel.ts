@@ -4,8 +4,11 @@ import { announce, byId, icon, make } from "../dom";
 import { onPlace } from "../memory/address";
 import { openTab } from "../panels/tabs";
 import { store } from "../store";
+import { text } from "../text";
 import { energyTerms, lessonOf, LESSONS, type Lesson } from "./lesson";
 import { stage } from "./stage";
+
+const words = text.lessons;
 
 /** What addresses of lessons begin with: `#learn/aperture/2`. */
 const PLACE = "learn";
@@ -31,12 +34,8 @@ function list(): void {
     return make("li", {}, link);
   });
   byId("lessons").replaceChildren(
-    make("h2", { id: "lessons-title" }, "Lessons"),
-    make(
-      "p",
-      { class: "note" },
-      "Each opens on the solver itself, which you can change as you like.",
-    ),
+    make("h2", { id: "lessons-title" }, words.heading),
+    make("p", { class: "note" }, words.note),
     make("ol", { class: "lesson-list" }, ...items),
   );
 }
@@ -45,9 +44,7 @@ function list(): void {
 async function open(id: string, wanted: number): Promise<boolean> {
   const lesson = await lessonOf(id);
   if (!lesson) {
-    store.update({
-      message: `There is no lesson called “${id.slice(0, 40)}”. The list is under Learn.`,
-    });
+    store.update({ message: words.unknown(id.slice(0, 40)) });
     return false;
   }
   const at = Math.min(lesson.steps.length - 1, Math.max(0, Math.trunc(wanted) || 0));
@@ -55,7 +52,7 @@ async function open(id: string, wanted: number): Promise<boolean> {
   await read(lesson, at);
   openTab("learn");
   const step = lesson.steps[at]!;
-  announce(`${lesson.title}, step ${at + 1} of ${lesson.steps.length}.`);
+  announce(words.opened(lesson.title, at + 1, lesson.steps.length));
   await stage(step);
   return true;
 }
@@ -67,23 +64,25 @@ async function read(lesson: Lesson, at: number): Promise<void> {
   const last = at === count - 1;
   const terms = make("div", { class: "terms", "data-term": step.term });
   if (step.term) terms.append(await energyTerms());
-  const back = make("button", { type: "button", class: "quiet" }, "All lessons");
+  const back = make("button", { type: "button", class: "quiet" }, words.all);
   back.addEventListener("click", () => {
     store.update({ lessonStep: null });
     byId("lessons").querySelector("a")?.focus();
   });
   const next = last
     ? following(lesson.id)
-    : { href: addressOf(lesson.id, at + 1), text: "Next step" };
+    : { href: addressOf(lesson.id, at + 1), text: words.nextStep };
   byId("lessons").replaceChildren(
     make("div", { class: "panel-head" }, make("h2", { id: "lessons-title" }, lesson.title), back),
     terms,
     make("div", { class: "lesson-text" }, step.text, last ? lesson.question : null),
     make(
       "nav",
-      { class: "lesson-steps", "aria-label": "Steps of the lesson" },
-      at > 0 ? make("a", { class: "button", href: addressOf(lesson.id, at - 1) }, "Back") : null,
-      make("span", {}, `Step ${at + 1} of ${count}`),
+      { class: "lesson-steps", "aria-label": words.steps },
+      at > 0
+        ? make("a", { class: "button", href: addressOf(lesson.id, at - 1) }, words.back)
+        : null,
+      make("span", {}, words.step(at + 1, count)),
       next ? make("a", { class: "button primary", href: next.href }, next.text) : null,
     ),
     again(lesson, at),
@@ -92,17 +91,12 @@ async function read(lesson: Lesson, at: number): Promise<void> {
 
 function following(id: string): { href: string; text: string } | null {
   const next = LESSONS[LESSONS.findIndex((lesson) => lesson.id === id) + 1];
-  return next ? { href: addressOf(next.id, 0), text: "Next lesson" } : null;
+  return next ? { href: addressOf(next.id, 0), text: words.nextLesson } : null;
 }
 
 /** For whoever has changed something since. */
 function again(lesson: Lesson, at: number): HTMLElement {
-  const button = make(
-    "button",
-    { type: "button", class: "quiet" },
-    icon("reset"),
-    "Set this step up again",
-  );
+  const button = make("button", { type: "button", class: "quiet" }, icon("reset"), words.again);
   button.addEventListener("click", () => void stage(lesson.steps[at]!));
   return button;
 }

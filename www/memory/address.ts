@@ -6,6 +6,7 @@
 import { announce, byId } from "../dom";
 import { open, openScene } from "../session";
 import { store } from "../store";
+import { text } from "../text";
 import type { Source } from "../worker/protocol";
 import { recall } from "./database";
 import { settingsOf } from "./held";
@@ -125,15 +126,9 @@ export async function lead(target: Target): Promise<boolean> {
 }
 
 function complaintOf(name: string, there: boolean, scene: boolean, useless: string[]) {
-  if (useless.length > 0) {
-    const [last, ...others] = useless.toReversed();
-    const list = others.length > 0 ? `${others.reverse().join(", ")} and ${last}` : last;
-    return `The link has a part that cannot be used (${list}). The rest of it holds.`;
-  }
+  if (useless.length > 0) return text.links.useless(useless);
   if (there || scene) return null;
-  return isOwn(name)
-    ? "The link is to frames that are not kept on this device. Open the two files, then follow it again."
-    : `The link is to a sequence called “${name.slice(0, 40)}”, which there is not.`;
+  return isOwn(name) ? text.links.notKept : text.links.noSequence(name.slice(0, 40));
 }
 
 /** The pair with exactly what the link tells; what was kept of it can be gone back to. */
@@ -146,7 +141,7 @@ async function exactly({ name, view, setting }: Target): Promise<boolean> {
   const source = kept?.source ?? present;
   const wanted = { ...setting, ...(view ? { view } : {}) };
   const done = source
-    ? await open({ ...source }, "Opening the link", wanted)
+    ? await open({ ...source }, text.waits.link, wanted)
     : scene !== undefined && (await openScene(name, wanted));
   if (done && kept) {
     const { setting: before } = kept.session;
@@ -180,9 +175,9 @@ async function share(): Promise<void> {
     shown = new URL(link).hash;
     history.replaceState(null, "", link);
   }
-  const what = copied ? "Link copied." : "The link is in the address bar, to copy from there.";
-  const limits = own ? " It does not carry your frames: it works where they are kept." : "";
-  byId("share-note").textContent = what + limits;
-  announce(what + limits);
+  const what = copied ? text.links.copied : text.links.inAddress;
+  const note = own ? `${what} ${text.links.withoutFrames}` : what;
+  byId("share-note").textContent = note;
+  announce(note);
   setTimeout(() => (byId("share-note").textContent = ""), 6000);
 }

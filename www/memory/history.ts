@@ -8,6 +8,7 @@
 import { announce } from "../dom";
 import { cancel, configure, reset, restore } from "../session";
 import { store, type State } from "../store";
+import { text } from "../text";
 import { sizeOf, type Timeline } from "../timeline/line";
 import type { Held, Moment } from "../store";
 
@@ -39,7 +40,7 @@ export function undo(): void {
   const before = past.at(-1);
   if (!before) return;
   void go(before, { past: past.slice(0, -1), future: [present(), ...future] });
-  announce("Undone.");
+  announce(text.page.undone);
 }
 
 export function redo(): void {
@@ -47,7 +48,7 @@ export function redo(): void {
   const after = future[0];
   if (!after) return;
   void go(after, { past: [...past, present()], future: future.slice(1) });
-  announce("Done again.");
+  announce(text.page.redone);
 }
 
 /** Where a run that is cancelled came from. */

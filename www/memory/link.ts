@@ -11,6 +11,7 @@
  */
 
 import { store, type State, type ViewParams } from "../store";
+import { text } from "../text";
 import { VIEWS } from "../views";
 import type {
   Camera,
@@ -98,7 +99,7 @@ export function targetOf(hash: string, catalogues: Catalogues): Target | null {
   const [name = "", viewId] = place.split("/").map(decoded);
   const useless: string[] = [];
   const view = VIEWS.find(({ id }) => id === viewId)?.id ?? null;
-  if (viewId && !view) useless.push(`a view called “${viewId.slice(0, 40)}”`);
+  if (viewId && !view) useless.push(text.links.view(viewId.slice(0, 40)));
   if (rest.length === 0) return { name, view, setting: null, sight: null, useless };
 
   const query = new Map(
@@ -128,11 +129,11 @@ export function targetOf(hash: string, catalogues: Catalogues): Target | null {
     if (value === null) useless.push(words);
     else setting[of] = value;
   };
-  use("c", "its curves", "shapes", (text) => shapesOf(text, catalogues.limits.maxCurves));
-  use("f", "its camera", "camera", cameraOf);
-  use("o", "its options", "options", (text) => optionsOf(text, catalogues));
-  use("p", "how its view is set", "viewParams", (text) => paramsOf(text, catalogues));
-  use("z", "its depth factors", "scales", scalesOf);
+  use("c", text.links.curves, "shapes", (text) => shapesOf(text, catalogues.limits.maxCurves));
+  use("f", text.links.camera, "camera", cameraOf);
+  use("o", text.links.options, "options", (text) => optionsOf(text, catalogues));
+  use("p", text.links.params, "viewParams", (text) => paramsOf(text, catalogues));
+  use("z", text.links.scales, "scales", scalesOf);
   // Older links have the palette among the settings of the view.
   const palette = query.has("l") ? sight?.palette : setting.viewParams?.palette;
   return { name, view, setting, sight: sight && { ...sight, palette: palette! }, useless };

@@ -7,6 +7,7 @@
 import { make } from "../dom";
 import { open } from "../session";
 import { store, type Slot, type State } from "../store";
+import { text } from "../text";
 import type { Found, Source } from "../worker/protocol";
 import { sizeOf as bytesOf, type Timeline } from "../timeline/line";
 import { forgetAll, keep, recall, sessions, type Session } from "./database";
@@ -103,7 +104,7 @@ export async function resume(id: string, view?: string): Promise<boolean> {
   const { source, result, timeline } = kept;
   const setting = { ...kept.session.setting, ...(view ? { view } : {}) };
   const found = result && result.settings === settingsOf(setting) ? result.found : null;
-  const done = await open(source, "Opening what was kept", setting, found);
+  const done = await open(source, text.waits.kept, setting, found);
   if (done && store.state.source === source) {
     written = { source, found: null, timeline };
     store.update({ timeline });

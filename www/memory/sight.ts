@@ -12,6 +12,7 @@
 import { FITTING, within, type Zoom } from "../stage/place";
 import { SIDES, sidesFor } from "../stage/sides";
 import { FREE, store, type Ranges, type Split, type State } from "../store";
+import { text } from "../text";
 import type { Catalogues } from "../worker/protocol";
 
 export interface Sight {
@@ -63,10 +64,10 @@ export function sightOf(
   };
   const known = (name: string) => (palettes.some(({ value }) => value === name) ? name : null);
   return {
-    split: use<Split | null>("s", "its two views", null, splitOf),
-    ranges: use("r", "its range of colours", FREE, rangesOf),
-    zoom: use("m", "its zoom", FITTING, zoomOf),
-    palette: use("l", "its palette", USUAL, known),
+    split: use<Split | null>("s", text.links.split, null, splitOf),
+    ranges: use("r", text.links.ranges, FREE, rangesOf),
+    zoom: use("m", text.links.zoom, FITTING, zoomOf),
+    palette: use("l", text.links.palette, USUAL, known),
   };
 }
 

@@ -5,7 +5,10 @@ import { fixed } from "../format";
 import { change } from "../memory/history";
 import { ask } from "../session";
 import { store } from "../store";
+import { text } from "../text";
 import { focalFindingOf } from "../wording";
+
+const words = text.camera;
 
 /** 2 arctan(w / 2f), in degrees. */
 const fieldOfView = (width: number, focal: number) =>
@@ -14,18 +17,18 @@ const focalOf = (width: number, degrees: number) =>
   width / (2 * Math.tan((degrees * Math.PI) / 360));
 
 export function mountCamera(): void {
-  const focal = numberField("focal", "Focal length f, px", "any");
-  const view = numberField("fov", "Field of view, °", "0.1");
+  const focal = numberField("focal", words.focal, "any");
+  const view = numberField("fov", words.view, "0.1");
   const slider = make("input", { type: "range", id: "fov-slider", min: 5, max: 120, step: 0.5 });
-  slider.setAttribute("aria-label", "Field of view");
-  const cx = numberField("cx", "Column, px", "any");
-  const cy = numberField("cy", "Row, px", "any");
+  slider.setAttribute("aria-label", words.viewSlider);
+  const cx = numberField("cx", words.column, "any");
+  const cy = numberField("cy", words.row, "any");
   const advanced = make(
     "details",
     {},
-    make("summary", {}, "Principal point"),
+    make("summary", {}, words.principal),
     make("div", { class: "pairing" }, cx.field, cy.field),
-    make("p", { class: "note" }, "Where the optical axis meets the frame; as a rule its centre."),
+    make("p", { class: "note" }, words.principalMeaning),
   );
   const note = make("p", { class: "note" });
   byId("camera").append(
@@ -39,7 +42,7 @@ export function mountCamera(): void {
     const { focalFinding } = store.state;
     change({
       camera: { ...store.state.camera, ...camera },
-      focalFinding: camera.focal === undefined ? focalFinding : BY_HAND,
+      focalFinding: camera.focal === undefined ? focalFinding : words.byHand,
     });
   };
   focal.input.addEventListener("change", () => set({ focal: asNumber(focal.input) ?? 0 }));
@@ -48,7 +51,7 @@ export function mountCamera(): void {
     if (degrees !== undefined && degrees > 0 && degrees < 180) {
       set({ focal: focalOf(store.state.width, degrees) });
     } else {
-      store.update({ message: "The field of view must be a number of degrees between 0 and 180." });
+      store.update({ message: words.notDegrees });
     }
   };
   view.input.addEventListener("change", byAngle(view.input));
@@ -70,7 +73,7 @@ export function mountCamera(): void {
       focal.input.value = plain(camera.focal);
       view.input.value = fixed(degrees, 1);
       slider.value = String(degrees);
-      slider.setAttribute("aria-valuetext", `${fixed(degrees, 1)} degrees`);
+      slider.setAttribute("aria-valuetext", words.degrees(fixed(degrees, 1)));
       cx.input.value = plain(camera.cx ?? (width - 1) / 2);
       cy.input.value = plain(camera.cy ?? (height - 1) / 2);
     },
@@ -78,7 +81,7 @@ export function mountCamera(): void {
   store.watch(
     ({ focalFinding, focalFrom }) => [focalFinding, focalFrom],
     ({ focalFinding, focalFrom }) => {
-      note.textContent = focalFinding ?? `${focalFrom} ${BENDS}`.trim();
+      note.textContent = focalFinding ?? `${focalFrom} ${words.bends}`.trim();
     },
   );
   store.watch(
@@ -92,9 +95,8 @@ export function mountCamera(): void {
 /** Takes the focal length that the frames tell, if they do. */
 async function findFocal(): Promise<void> {
   const { camera } = store.state;
-  const phrase = "Looking for the focal length";
   // In an array, since nothing found is an answer, too.
-  const answer = await ask(phrase, async (service) => [await service.findFocal(camera)]);
+  const answer = await ask(words.finding, async (service) => [await service.findFocal(camera)]);
   // A camera that was set meanwhile is what is wanted.
   if (!answer || store.state.camera !== camera) return;
   const [found = null] = answer;
@@ -103,9 +105,6 @@ async function findFocal(): Promise<void> {
   if (found) change({ camera: { ...camera, focal: Math.round(found.focal) }, focalFinding });
   else store.update({ focalFinding });
 }
-
-const BY_HAND = "f is as you set it.";
-const BENDS = "A wrong f bends depth more than outlines.";
 
 /** An empty field is no number: without f the core says what it wants, without centre it takes its own. */
 function asNumber(input: HTMLInputElement): number | undefined {

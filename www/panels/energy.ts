@@ -9,8 +9,11 @@ import uPlot from "uplot";
 import { byId, themeColour } from "../dom";
 import { compact, number, percent } from "../format";
 import { store, type State } from "../store";
+import { text } from "../text";
 import { sentence } from "../wording";
 import type { Report } from "../worker/protocol";
+
+const words = text.energy;
 
 const HEIGHT = 160;
 let plot: uPlot | null = null;
@@ -63,9 +66,9 @@ export function rebuild(): void {
         { stroke: soft, grid, font, size: 48, ticks: { show: false }, values: labels },
       ],
       series: [
-        { label: "Pass" },
+        { label: words.pass },
         {
-          label: "Energy",
+          label: words.energy,
           stroke: themeColour("--cyan"),
           width: 2,
           // A pass between two breaks makes no line.
@@ -128,14 +131,14 @@ function inWords({ report, running }: Readonly<State>): string {
   if (!report) return "";
   const { data, smoothness, length, total } = report.energy;
   const part = (value: number) => percent(value / (total || 1), 0);
-  const left = `Of what is left, ${part(data)} is misfit of the frames, ${part(smoothness)} depth's roughness, ${part(length)} length of curves.`;
+  const left = words.left(part(data), part(smoothness), part(length));
   // What the passes came to, as the line shows it: curves moved since have an energy of their own.
   if (!running && report.status === "running" && report.breaks.includes(report.history.length)) {
-    return "From the next pass on energy is another sum: curves or weights are new, or a finer scale begins.";
+    return words.newSum;
   }
   const since = breaks(report).at(-1) ?? 0;
   const [first = number(total), ...later] = report.history.slice(since).map((e) => number(e));
-  const fall = later.length > 0 ? `from ${first} to ${later.at(-1)}` : `${first} after one pass`;
+  const fall = later.length > 0 ? words.fell(first, later.at(-1)!) : words.once(first);
   if (since === 0) return `${sentence(fall)} ${left}`;
-  return `Since the last dashed line: ${fall}. ${left} At a dashed line a finer scale begins, weights are chosen anew or curves were drawn: energy can be compared only between two lines.`;
+  return words.sinceLine(fall, left);
 }

@@ -7,6 +7,9 @@ import { takeAll } from "../intake/take";
 import { ENDINGS, takeSaid } from "../intake/truth";
 import { ask } from "../session";
 import { store, type State } from "../store";
+import { text } from "../text";
+
+const words = text.frames;
 
 // Formats that no browser has a media type for, by their endings.
 const ACCEPT = `${ENDINGS},image/*,video/*,.pnm,.pgm,.ppm,.pbm,.pam,.mpo,.heic,.heif,.jxl,.mkv,.mov`;
@@ -63,7 +66,7 @@ function mountSources(): void {
     },
   );
   byId("camera-open").addEventListener("click", async () => {
-    const loaded = await ask("Opening the camera", () => import("../intake/camera"));
+    const loaded = await ask(words.openingCamera, () => import("../intake/camera"));
     await loaded?.openCamera((film) => {
       keep(film);
       void chooseFrom(film);
@@ -87,7 +90,7 @@ function render(state: Readonly<State>): void {
   const own = slots[0] !== null || slots[1] !== null;
   const cards = ([0, 1] as const).map((side) => card(side, state, own));
   const swapper = make("button", { type: "button", class: "quiet icon-only", id: "swap" });
-  swapper.append(icon("swap"), make("span", { class: "visually-hidden" }, "Swap the two frames"));
+  swapper.append(icon("swap"), make("span", { class: "visually-hidden" }, words.swap));
   swapper.disabled = !own;
   swapper.addEventListener("click", () => void swap());
   const held = document.activeElement?.id;
@@ -100,9 +103,9 @@ function render(state: Readonly<State>): void {
   if (slots[0] && slots[1])
     note.append(
       " ",
-      button("use", "Use them", () => openBoth()),
+      button("use", words.use, () => openBoth()),
     );
-  note.append(" ", button("discard", "Discard", discard));
+  note.append(" ", button("discard", words.discard, discard));
 }
 
 function button(id: string, name: string, press: () => unknown): HTMLElement {
@@ -112,28 +115,20 @@ function button(id: string, name: string, press: () => unknown): HTMLElement {
 }
 
 function explain(state: Readonly<State>, own: boolean): string {
-  if (!own) {
-    return "Bring your own: two pictures taken shortly after each other, or a clip, an animation or the camera to choose them from. Choose, drop or paste.";
-  }
-  const missing = state.slots[0] ? (state.slots[1] ? null : "second") : "first";
-  if (missing) {
-    return `The ${missing} frame is still missing. Until it is there, the stage keeps ${state.title || "what it shows"}.`;
-  }
-  return inUse(state)
-    ? `These are your frames. Draw or find a curve on each thing that moves by itself, then run. ${truthNote(state)}`
-    : `These two are not in use; the stage keeps ${state.title}.`;
+  const { slots, title } = state;
+  if (!own) return words.bring;
+  if (!slots[0] || !slots[1]) return words.missing(slots[0] ? 1 : 0, title);
+  return inUse(state) ? words.inUse(truthNote(state)) : words.unused(title);
 }
 
 /** What is known to be true of them. */
 function truthNote({ source, truth }: Readonly<State>): string {
-  if (!truth || source?.kind !== "files" || !source.truth) {
-    return "If their true motion, depth or labels are known, drop those files, too: scores and maps of errors follow.";
-  }
-  return `The truth comes from ${source.truth.map(({ name }) => name).join(", ")}.`;
+  if (!truth || source?.kind !== "files" || !source.truth) return words.truthWanted;
+  return words.truthFrom(source.truth.map(({ name }) => name).join(", "));
 }
 
 function card(side: 0 | 1, state: Readonly<State>, own: boolean): HTMLElement {
-  const title = side === 0 ? "First" : "Second";
+  const title = words.titles[side];
   const slot = state.slots[side];
   const picture = own ? slot?.picture : state.frames?.[side];
   const input = make("input", { type: "file", accept: ACCEPT, id: `file-${side}` });
@@ -143,9 +138,9 @@ function card(side: 0 | 1, state: Readonly<State>, own: boolean): HTMLElement {
   return make(
     "div",
     { class: "slot" },
-    make("h3", {}, `${title} frame`),
+    make("h3", {}, title),
     // The frames of a sequence are on their way; one's own are still to be brought.
-    picture ? thumbnail(picture) : make("div", { class: "empty" }, own ? "missing" : "…"),
+    picture ? thumbnail(picture) : make("div", { class: "empty" }, own ? words.empty : "…"),
     own
       ? make("span", { class: "name", title: slot?.name }, slot ? slot.name + size : "\u00a0")
       : null,
@@ -153,8 +148,8 @@ function card(side: 0 | 1, state: Readonly<State>, own: boolean): HTMLElement {
       "label",
       { class: "pick" },
       input,
-      make("span", { class: "visually-hidden" }, `${title} frame: `),
-      make("span", {}, "Choose…"),
+      make("span", { class: "visually-hidden" }, `${title}: `),
+      make("span", {}, words.choose),
     ),
   );
 }
@@ -192,7 +187,7 @@ function mountDrop(): void {
     zone.hidden = false;
     const many = holdsMany(event);
     zone.classList.toggle("many", many);
-    sides[0]!.textContent = many ? "Choose two frames of these" : "First frame";
+    sides[0]!.textContent = many ? words.dropMany : words.titles[0];
     mark(many ? 0 : sideAt(event));
   });
   document.addEventListener("dragleave", (event) => {

@@ -10,8 +10,11 @@ import { byId, make } from "../dom";
 import { number } from "../format";
 import { change as record } from "../memory/history";
 import { store, type State } from "../store";
+import { text } from "../text";
 import type { OptionEntry, OptionValues, PresetEntry } from "../worker/protocol";
 import { fromSlider, STEPS, toSlider } from "./slider";
+
+const words = text.options;
 
 type Value = number | string | boolean | null;
 
@@ -87,7 +90,7 @@ function presetField(presets: PresetEntry[]): HTMLElement | null {
     ...presets.map(({ value, label }) => make("option", { value }, `${value}: ${label}`)),
   );
   select.addEventListener("change", () => change({ preset: presets[select.selectedIndex]!.value }));
-  return make("label", { class: "field" }, make("span", {}, "Preset"), select);
+  return make("label", { class: "field" }, make("span", {}, words.preset), select);
 }
 
 function field(descriptor: OptionEntry) {
@@ -145,7 +148,7 @@ function field(descriptor: OptionEntry) {
       auto.addEventListener("change", () =>
         set(key, auto.checked ? null : Number(exact.value) || 0),
       );
-      head.append(make("label", { class: "check" }, auto, "from the data"));
+      head.append(make("label", { class: "check" }, auto, words.automatic));
     }
     if (unit) help.append(` · ${unit}`);
     show = (present, chosen, idle) => {
@@ -159,12 +162,9 @@ function field(descriptor: OptionEntry) {
       if (document.activeElement !== exact) {
         exact.value = shown === null ? "" : String(Number(shown.toPrecision(4)));
       }
-      exact.placeholder = free ? "auto" : "";
+      exact.placeholder = free ? words.placeholder : "";
       slider.value = String(shown === null ? 0 : toSlider(descriptor, shown));
-      slider.setAttribute(
-        "aria-valuetext",
-        shown === null ? "chosen from the data" : number(shown),
-      );
+      slider.setAttribute("aria-valuetext", shown === null ? words.chosen : number(shown));
     };
     element.append(value);
   }
@@ -179,7 +179,7 @@ function refresh(state: Readonly<State>): void {
     const chosen = weights[descriptor.key];
     const idle = present !== undefined && !descriptor.presets.includes(present.value);
     show(valueOf(state, descriptor), chosen && chosen > 0 ? chosen : null, idle);
-    reason.textContent = idle ? `No effect under ${present.value}. ` : "";
+    reason.textContent = idle ? `${words.idle(present.value)} ` : "";
   }
   const preset = document.getElementById("option-preset") as HTMLSelectElement | null;
   if (preset && present) preset.value = present.value;

@@ -4,6 +4,7 @@ import { byId, make } from "../dom";
 import { paceOf } from "../pace";
 import { estimate, type PassTime } from "../progress";
 import { store, type State } from "../store";
+import { text } from "../text";
 import { remaining } from "../wording";
 import type { Report } from "../worker/protocol";
 
@@ -65,10 +66,9 @@ function show(state: Readonly<State>): void {
 }
 
 function task({ level, levels, iterations }: Report, { options, shapes }: Readonly<State>): string {
-  if (options.preset === "paper") {
-    return "Motion, depth and curves take a step each, in turn.";
-  }
-  const whose = shapes.length > 0 ? "outlines, motion and depth" : "motion and depth";
-  if (level > 0) return `Finding ${whose} on small copies, scale ${levels - level} of ${levels}.`;
-  return iterations === 0 ? "Starting." : `Refining ${whose} at full size.`;
+  const { paper, whole, noCurves, coarse, starting, full } = text.progress;
+  if (options.preset === "paper") return paper;
+  const what = shapes.length > 0 ? whole : noCurves;
+  if (level > 0) return coarse(what, levels - level, levels);
+  return iterations === 0 ? starting : full(what);
 }

@@ -9,7 +9,10 @@ import { count, fixed, number, percent } from "../format";
 import { look } from "../looking";
 import { addAtCentre } from "../stage/tools";
 import { store, type State } from "../store";
+import { text } from "../text";
 import type { RegionReport, Shape } from "../worker/protocol";
+
+const words = text.regions;
 
 export function mountRegions(): void {
   byId("add-circle").addEventListener("click", () => {
@@ -46,9 +49,9 @@ function row(label: number, colour: string): HTMLElement {
   chip.style.background = colour;
   const head = make("div", { class: "region-head" }, chip);
   if (label === 0) {
-    head.append(make("strong", {}, "Background"));
+    head.append(make("strong", {}, words.background));
   } else {
-    const choose = make("button", { type: "button", class: "choose" }, `Curve ${label}`);
+    const choose = make("button", { type: "button", class: "choose" }, words.curve(label));
     choose.addEventListener("click", () => {
       store.update({ view: "curves", tool: "select" });
       select(label - 1);
@@ -59,7 +62,7 @@ function row(label: number, colour: string): HTMLElement {
   head.append(make("span", { class: "facts" }));
   if (label > 0) {
     const drop = make("button", { type: "button", class: "quiet icon-only" }, icon("delete"));
-    drop.append(make("span", { class: "visually-hidden" }, `Delete curve ${label}`));
+    drop.append(make("span", { class: "visually-hidden" }, words.remove(label)));
     drop.addEventListener("click", () => {
       remove(label - 1);
       holdPlace(label);
@@ -84,8 +87,8 @@ function motionTable(): HTMLElement {
   return make(
     "div",
     { class: "motion" },
-    ...line("T", "Translation per frame, in units in which the region's mean 1/Z is 1", "· Z̄"),
-    ...line("ω", "Rotation per frame, in degrees about x, y and z", "°"),
+    ...line("T", words.translation, "· Z̄"),
+    ...line("ω", words.rotation, "°"),
   );
 }
 
@@ -104,7 +107,7 @@ function scale(label: number): HTMLElement {
     });
     void look();
   });
-  return make("div", { class: "scale" }, make("label", { for: id }, "Depth"), slider, output);
+  return make("div", { class: "scale" }, make("label", { for: id }, words.depth), slider, output);
 }
 
 function refresh({ shapes, selected, report, started, frames }: Readonly<State>): void {
@@ -115,7 +118,7 @@ function refresh({ shapes, selected, report, started, frames }: Readonly<State>)
     element.querySelector(".choose")?.setAttribute("aria-pressed", String(chosen));
     const shape = shapes[label - 1];
     const facts = element.querySelector(".facts")!;
-    facts.textContent = region ? facing(region) : shape ? briefly(shape) : "everything else";
+    facts.textContent = region ? facing(region) : shape ? briefly(shape) : words.rest;
     const table = element.querySelector<HTMLElement>(".motion")!;
     table.hidden = !region?.rigid;
     element.querySelector<HTMLElement>(".scale")!.hidden = !region || rows.length < 2;
@@ -127,18 +130,14 @@ function refresh({ shapes, selected, report, started, frames }: Readonly<State>)
 }
 
 function notes(curves: number, started: boolean): string {
-  if (curves === 0) {
-    return "No curve is drawn: the whole frame is taken for one region, as from a moving camera.";
-  }
-  return started
-    ? "Two frames do not tell how deep one region lies against another: each has a scale of its own, and the sliders set it by eye."
-    : "A rough curve that covers part of each moving thing is enough.";
+  if (curves === 0) return words.noCurve;
+  return started ? words.scales : words.rough;
 }
 
 const briefly = (shape: Shape) =>
   shape.kind === "circle"
-    ? `${Math.round(shape.x)}, ${Math.round(shape.y)} · radius ${Math.round(shape.r)}`
-    : `${shape.points.length} corners`;
+    ? words.circle(Math.round(shape.x), Math.round(shape.y), Math.round(shape.r))
+    : words.corners(shape.points.length);
 
 /** Curves are in front of the background anyway: only other curves are worth a word. */
 function facing({
@@ -152,12 +151,12 @@ function facing({
 }: RegionReport): string {
   const facts: string[] = [
     `${count(pixels)}\u00a0px\u00a0·\u00a0${percent(share)}`,
-    rigid ? model : "non-rigid",
+    rigid ? words.models[model] : words.nonRigid,
   ];
-  if (part_of != null) facts.push(part_of > 0 ? `one with ${part_of}?` : "background?");
-  if (ambiguous) facts.push("two explanations fit equally");
+  if (part_of != null) facts.push(part_of > 0 ? words.oneWith(part_of) : words.isBackground);
+  if (ambiguous) facts.push(words.ambiguous);
   const curves = in_front_of.filter((label) => label > 0);
-  if (curves.length > 0) facts.push(`in front of ${curves.join(" and ")}`);
+  if (curves.length > 0) facts.push(words.inFrontOf(curves));
   return facts.join(" · ");
 }
 

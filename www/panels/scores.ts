@@ -7,7 +7,10 @@
 import { byId, make } from "../dom";
 import { fixed, percent } from "../format";
 import { store, type State } from "../store";
+import { text } from "../text";
 import type { PartScores } from "../worker/protocol";
+
+const words = text.scores;
 
 interface Row {
   name: string;
@@ -31,25 +34,25 @@ function refresh({ scores, started }: Readonly<State>): void {
     .filter((_, k) => known(found, k));
   byId("scores").replaceChildren(
     table(
-      ["", "Found", "Horn–Schunck"],
+      ["", words.found, words.baseline],
       [
         {
-          name: "AEE",
-          meaning: "Mean error of the image motion",
+          name: words.aee,
+          meaning: words.aeeMeaning,
           found: unit(found.aee, 3, "px"),
           baseline: unit(baseline.aee, 3, "px"),
           better: less(found.aee, baseline.aee),
         },
         {
-          name: "AAE",
-          meaning: "Mean angle between (u, v, 1) and the truth",
+          name: words.aae,
+          meaning: words.aaeMeaning,
           found: unit(found.aae, 2, "°"),
           baseline: unit(baseline.aae, 2, "°"),
           better: less(found.aae, baseline.aae),
         },
         {
-          name: "Labels wrong",
-          meaning: "Share of pixels in the wrong region",
+          name: words.labels,
+          meaning: words.labelsMeaning,
           found: found.labels_wrong === null ? "–" : percent(found.labels_wrong),
           baseline: "–",
         },
@@ -59,12 +62,8 @@ function refresh({ scores, started }: Readonly<State>): void {
     ),
     ...(regions.length > 0
       ? [
-          table(["Region", "IoU", "Depth", "flat", "T", "ω"], regions),
-          make(
-            "p",
-            { class: "note" },
-            "IoU: overlap of region and truth. Depth: mean error once the region's scale is aligned, beside that of a flat guess. T: angle between directions. ω: difference per frame.",
-          ),
+          table([words.region, words.iou, words.depth, words.flat, "T", "ω"], regions),
+          make("p", { class: "note" }, words.meaning),
         ]
       : []),
   );
@@ -96,7 +95,7 @@ function regionLine(found: PartScores, iou: number | null, k: number): HTMLEleme
   return make(
     "tr",
     {},
-    make("th", { scope: "row" }, k === 0 ? "Backgr." : `Curve ${k}`),
+    make("th", { scope: "row" }, k === 0 ? words.background : words.curve(k)),
     ...cells.map((text) => make("td", {}, text)),
   );
 }

@@ -7,6 +7,7 @@ import { playAgain } from "../recording/play";
 import { thumbnailOf } from "../recording/recording";
 import { openScene } from "../session";
 import { store, type State } from "../store";
+import { text } from "../text";
 
 /** Stands for frames of the user's own in the list, until they have a name. */
 const OWN = "";
@@ -48,10 +49,7 @@ export function mountSequence(): void {
       byId("sequence-title").textContent = title;
       const note = source?.kind === "files" && source.note ? `${source.note} ` : "";
       byId("lesson").textContent =
-        lesson ||
-        (width > 0
-          ? `${note}${width} × ${height} pixels. Set the camera's focal length if you know it, or have it found.`
-          : "");
+        lesson || (width > 0 ? note + text.sequence.size(width, height) : "");
     },
   );
   const replay = byId<HTMLButtonElement>("replay");
@@ -80,9 +78,9 @@ function fill(select: HTMLSelectElement, { catalogues, source, memory }: Readonl
   const kept = own.map(({ id, title, thumbnail }) => {
     const address = thumbnail ? URL.createObjectURL(thumbnail) : undefined;
     if (address) addresses.push(address);
-    return option(id, own.length > 1 ? title : "Your own frames", address);
+    return option(id, own.length > 1 ? title : text.sequence.own, address);
   });
-  if (source?.kind === "files" && own.length === 0) kept.push(option(OWN, "Your own frames"));
+  if (source?.kind === "files" && own.length === 0) kept.push(option(OWN, text.sequence.own));
   // Before the core has told what there is, the one that is playing.
   if (scenes.length === 0 && source?.kind === "scene") {
     scenes.push(option(source.name, store.state.title, thumbnailOf(source.name)));

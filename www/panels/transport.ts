@@ -7,8 +7,11 @@ import { PACES, paceOf } from "../pace";
 import { giveUp, startOver } from "../memory/history";
 import { keepPace, pause, run, step } from "../session";
 import { store, type State } from "../store";
+import { text } from "../text";
 import { expectation } from "../wording";
-import type { Part, Status } from "../worker/protocol";
+import type { Part } from "../worker/protocol";
+
+const words = text.status;
 
 const parts = () => document.querySelectorAll<HTMLButtonElement>("[data-part]");
 
@@ -48,7 +51,7 @@ export function mountTransport(): void {
       const { running, busy, frames, started, playing } = state;
       const report = state.working ?? state.report;
       const over = started && report !== null && report.status !== "running";
-      const name = running ? "Pause" : over ? "Run again" : "Run";
+      const name = running ? text.run.pause : over ? text.run.again : text.run.run;
       main.replaceChildren(icon(running ? "pause" : "run"), name);
       const idle = frames !== null && busy === null;
       main.disabled = !idle;
@@ -96,7 +99,7 @@ function mountNextPair(): void {
       button.disabled = running || busy !== null;
       if (next === null || !reel?.pair) return;
       const [from, to] = [reel.pair.at[1], next].map((index) => reel.film.label(index));
-      button.title = `Goes on from what was found: ${from} and ${to}`;
+      button.title = text.run.nextPair(from!, to!);
     },
   );
 }
@@ -106,23 +109,16 @@ export function standing(state: Readonly<State>): string {
   const { running, started, busy, frames, playing } = state;
   // Of the solver, whichever pass is looked at.
   const report = state.working ?? state.report;
-  if (busy && !playing) return `${busy}…`;
+  if (busy && !playing) return words.waiting(busy);
   if (!frames && !playing) return "";
-  if (!report || !started) return "Ready";
+  if (!report || !started) return words.ready;
   const { iterations, level, levels, status, energy } = report;
   const parts = [
-    playing ? "Recorded" : running ? "Running" : ENDED[status],
-    iterations === 1 ? "1 pass" : `${iterations} passes`,
+    playing ? words.recorded : running ? words.running : words.ended[status],
+    words.passes(iterations),
   ];
-  if (levels > 1) parts.push(`scale ${levels - level}/${levels}`);
+  if (levels > 1) parts.push(words.scale(levels - level, levels));
   parts.push(`E ${number(energy.total)}`);
   if (report.seconds.total > 0) parts.push(seconds(report.seconds.total));
   return parts.map((part) => part.replaceAll(" ", "\u00a0")).join("\u00a0· ");
 }
-
-const ENDED: Record<Status, string> = {
-  running: "Paused",
-  converged: "Converged",
-  exhausted: "Out of iterations",
-  diverged: "Diverged",
-};

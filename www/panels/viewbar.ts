@@ -6,6 +6,7 @@ import { number } from "../format";
 import { redo, undo } from "../memory/history";
 import { look } from "../looking";
 import { store, type Showing, type State, type Tool, type ViewParams } from "../store";
+import { text } from "../text";
 import { available, GROUPS, groupOf, viewOf, type Setting } from "../views";
 
 export function mountViewbar(): void {
@@ -101,7 +102,7 @@ function showView(state: Readonly<State>): void {
   const editable = view.id === "curves";
   byId("tools").hidden = !editable;
   byId("overlay").hidden = view.id === "relief";
-  byId("overlay").ariaLabel = editable ? "Curves on the frame" : `${view.label}, pixel by pixel`;
+  byId("overlay").ariaLabel = editable ? text.stage.overlay : text.stage.pixelByPixel(view.label);
   byId("zoom").hidden = view.id === "relief";
   byId("showing").hidden = !editable;
   byId("relief").hidden = view.id !== "relief";

@@ -8,6 +8,7 @@ import { open, restore } from "../session";
 import { FITTING } from "../stage/place";
 import { store } from "../store";
 import { sceneOf } from "../scenes";
+import { text } from "../text";
 import { entered, type Timeline } from "../timeline/line";
 import { nameOf } from "../views";
 import type { Source } from "../worker/protocol";
@@ -82,7 +83,7 @@ export async function playAgain(source: Source): Promise<void> {
 export async function handOver(recording: Recording, source: Source): Promise<boolean> {
   const { camera, shapes, found } = recording;
   const setting = { camera, shapes, options: {} };
-  const done = await open(source, "Rendering the sequence", setting, found);
+  const done = await open(source, text.waits.rendering, setting, found);
   if (done && store.state.source === source) store.update({ timeline: timelineOf(recording) });
   return done;
 }

@@ -6,6 +6,7 @@
  */
 
 import { make } from "../dom";
+import { text } from "../text";
 
 /** What the light shines on. */
 interface Lit {
@@ -61,7 +62,7 @@ export function mountLamp(place: HTMLElement, lit: Lit): Lamp {
     const { r } = disc();
     handle.style.transform = `translate(-50%, -50%) translate(${x * r}px, ${-y * r}px)`;
     handle.classList.toggle("behind", z < 0);
-    handle.ariaLabel = `Light from ${where(x, y)}: drag it, or move it with the arrow keys`;
+    handle.ariaLabel = text.relief.light(where(x, y));
   };
   const key = (name: string) => {
     const arrow = ARROWS[name];
@@ -102,8 +103,7 @@ export function mountLamp(place: HTMLElement, lit: Lit): Lamp {
 }
 
 function where(x: number, y: number): string {
-  if (Math.hypot(x, y) < 0.25) return "the front";
-  const up = y > 0.2 ? "above" : y < -0.2 ? "below" : "";
-  const aside = x > 0.2 ? "the right" : x < -0.2 ? "the left" : "";
-  return [up, aside].filter(Boolean).join(" and ");
+  if (Math.hypot(x, y) < 0.25) return text.relief.from(0, 0);
+  const side = (value: number) => (Math.abs(value) > 0.2 ? Math.sign(value) : 0);
+  return text.relief.from(side(x), side(y));
 }

@@ -11,6 +11,7 @@ import { announce, byId, make } from "../dom";
 import { onMesh } from "../looking";
 import { takePicture } from "../stage/snapshot";
 import { store } from "../store";
+import { text } from "../text";
 import { namesOf } from "../timeline/sentences";
 import { placeOf } from "../timeline/going";
 import type { MeshData } from "../worker/protocol";
@@ -126,7 +127,7 @@ async function open(): Promise<void> {
   } catch (error) {
     opening = null;
     store.update({
-      message: `The relief cannot be shown: ${(error as Error).message}. It needs WebGL; the other views do not.`,
+      message: text.relief.broken((error as Error).message),
       view: "depth",
     });
   }
@@ -179,7 +180,7 @@ function mountKeys(scenery: Scenery): void {
     "-": () => scenery.approach(1.1),
     Home: () => {
       scenery.home();
-      announce("Relief seen from the front.");
+      announce(text.relief.front);
     },
   };
   scenery.canvas.addEventListener("keydown", (event) => {

@@ -22,6 +22,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
+import { text } from "../text";
 import type { MeshData } from "../worker/protocol";
 
 /** Where the eye looks from at first: a little from above and from the right. */
@@ -74,10 +75,7 @@ export class Scenery {
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "application");
-    this.canvas.setAttribute(
-      "aria-label",
-      "Relief. Arrow keys turn it, with Shift they move the light; plus and minus come closer and go away, Home looks from the front.",
-    );
+    this.canvas.setAttribute("aria-label", text.relief.keys);
     place.append(this.canvas);
     this.scene.add(this.surface, this.light, new AmbientLight(0xffffff, 0.75));
     this.controls = new OrbitControls(this.camera, this.canvas);

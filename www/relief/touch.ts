@@ -1,9 +1,10 @@
 /** A finger scrolls the page until it has tapped the relief; then it turns it, until something else is tapped. */
 
 import { make } from "../dom";
+import { text } from "../text";
 
 export function mountTouch(place: HTMLElement): void {
-  const note = make("p", { class: "tap", "aria-hidden": "true" }, "Tap to turn");
+  const note = make("p", { class: "tap", "aria-hidden": "true" }, text.relief.tap);
   place.append(note);
   const hold = (held: boolean) => place.classList.toggle("held", held);
   // Before the controls of the eye hear of it.

@@ -3,6 +3,7 @@
 import { announce, byId, make } from "../dom";
 import { percent } from "../format";
 import { store, type State } from "../store";
+import { text } from "../text";
 import { sidesFor, sideOfView } from "./sides";
 import { stagePane } from "./place";
 
@@ -41,7 +42,7 @@ function toggle(): void {
   const { state } = store;
   if (state.split) {
     store.update({ split: null });
-    announce("One view.");
+    announce(text.split.off);
     return;
   }
   const own = sideOfView(state);
@@ -51,7 +52,7 @@ function toggle(): void {
     // What is no flat picture cannot be beside one.
     ...(own ? {} : { view: "curves" }),
   });
-  announce("Two views, with a divider between them.");
+  announce(text.split.on);
   bar().focus({ preventScroll: true });
 }
 
@@ -82,7 +83,7 @@ function show(state: Readonly<State>): void {
     select.value = split[name];
   }
   bar().value = String(100 * split.at);
-  bar().setAttribute("aria-valuetext", `${percent(split.at, 0)} from the left`);
+  bar().setAttribute("aria-valuetext", text.split.at(percent(split.at, 0)));
 }
 
 /** Half the width of the thumb, as in the stylesheet. */

@@ -3,8 +3,11 @@
 import { byId, make } from "../dom";
 import { number, scale } from "../format";
 import { store, type State } from "../store";
+import { text } from "../text";
 import { asks, awaited, comparing } from "../views";
 import type { Legend } from "../worker/protocol";
+
+const words = text.legend;
 
 export function mountLegend(): void {
   store.watch(
@@ -43,14 +46,14 @@ function element(legend: Legend, kind: string, compared: boolean): HTMLElement {
   const depth = quantity === "Depth";
   const title =
     depth && compared
-      ? "Depth in the truth's unit"
+      ? words.depthInTruth
       : depth
-        ? "Depth; 1 is the region's mean"
+        ? words.depthInMean
         : unit
           ? `${quantity}, ${unit}`
           : quantity;
   const name = make("figcaption", {}, quantity);
-  const small = depth ? (compared ? "truth's unit" : "× mean") : unit;
+  const small = depth ? (compared ? words.truthUnit : words.meanUnit) : unit;
   if (small) name.append(make("small", {}, small));
   const figure = make("figure", { class: `scale-${form}`, title }, name);
   switch (form) {
@@ -61,7 +64,7 @@ function element(legend: Legend, kind: string, compared: boolean): HTMLElement {
       figure.append(wheel(legend));
       break;
     case "arrow":
-      figure.append(make("p", {}, `longest ${number(legend.marks[0]?.value ?? 0, 2)}`));
+      figure.append(make("p", {}, words.longest(number(legend.marks[0]?.value ?? 0, 2))));
       break;
     case "keys":
       figure.append(keys(legend));
@@ -84,10 +87,10 @@ function holder({ hold }: Legend, kind: string): HTMLElement {
   const button = make(
     "button",
     { type: "button", id: `hold-${kind}`, "aria-pressed": String(held) },
-    "Hold",
-    make("span", { class: "visually-hidden" }, " the range"),
+    words.hold,
+    make("span", { class: "visually-hidden" }, ` ${words.holdWhat}`),
   );
-  button.title = held ? "The range is held; press to let it follow" : "Hold this range of colours";
+  button.title = held ? words.isHeld : words.isFree;
   button.addEventListener("click", () => {
     const { [kind]: _, ...others } = ranges.most;
     store.update({
@@ -124,7 +127,7 @@ function wheel({ colours, marks }: Legend): HTMLElement {
     "div",
     { class: "wheel-body" },
     disc,
-    make("p", { title: "Motion at which colours are full" }, `rim ${number(full, 2)}`),
+    make("p", { title: words.rimTitle }, words.rim(number(full, 2))),
   );
 }
 
@@ -135,7 +138,7 @@ function keys({ colours, names }: Legend): HTMLElement {
     ...colours.map((colour, label) => {
       const chip = make("span", { class: "chip", "aria-hidden": "true" });
       chip.style.background = colour;
-      const region = label === 0 ? "Backgr." : `Curve ${label}`;
+      const region = label === 0 ? words.background : words.curve(label);
       return make("li", {}, chip, names[label] ?? region);
     }),
   );

@@ -7,11 +7,14 @@ import { announce, byId, make } from "../dom";
 import { fixed, number } from "../format";
 import { askShown } from "../session";
 import { store } from "../store";
+import { text } from "../text";
 import { wantedParams } from "../views";
 import type { Point, Probe } from "../worker/protocol";
 import { currentCrosshair, currentSketch, sketchChanged } from "./tools";
 import { pixelAt, placeOf } from "./zoom";
 import { holding } from "./grip";
+
+const words = text.readout;
 
 let pixel: Point | null = null;
 let byKey = false;
@@ -58,7 +61,7 @@ function show(next: Point | null): void {
   byId("readout").hidden = next === null;
   if (!next) return;
   byId("readout").dataset["corner"] = corner(next);
-  byId("readout-place").textContent = `x ${next[0]}, y ${next[1]}`;
+  byId("readout-place").textContent = words.place(next[0], next[1]);
   if (!store.state.started) write(null);
   else if (!asking) void answer();
 }
@@ -99,21 +102,17 @@ function write(probe: Probe | null): void {
 function rowsOf(probe: Probe): [string, string, string?][] {
   const { label, depth, u, v, speed, psi, confidence, occluded } = probe;
   const told = (value: number | null, text: (value: number) => string) =>
-    value === null ? "not known" : text(value);
+    value === null ? words.unknown : text(value);
   return [
-    ["region", label === 0 ? "background" : `curve ${label}`],
-    ["depth", told(depth, (z) => `${number(z)} × mean`), "In units of the region's mean"],
+    [words.region, label === 0 ? words.background : words.curve(label)],
+    [words.depth, told(depth, (z) => words.timesMean(number(z))), words.depthTitle],
     [
-      "motion",
-      told(speed, (s) => `${fixed(s, 2)} px (${fixed(u, 2)}, ${fixed(v, 2)})`),
-      "Pixels per frame: its length, to the right and downwards",
+      words.motion,
+      told(speed, (s) => words.pixels(fixed(s, 2), fixed(u, 2), fixed(v, 2))),
+      words.motionTitle,
     ],
-    [
-      "ψ",
-      told(psi, (value) => fixed(value, 1)),
-      "Brightness that motion leaves unexplained, grey levels",
-    ],
-    ["confidence", number(confidence, 2), "How far depth shows in the image motion, 0 to 1"],
-    ...(occluded ? [["hidden", "in the second frame"] as [string, string]] : []),
+    ["ψ", told(psi, (value) => fixed(value, 1)), words.residualTitle],
+    [words.confidence, number(confidence, 2), words.confidenceTitle],
+    ...(occluded ? [[words.hidden, words.inSecond] as [string, string]] : []),
   ];
 }

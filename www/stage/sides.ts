@@ -5,6 +5,7 @@
  */
 
 import type { State } from "../store";
+import { text } from "../text";
 import type { KnownParts, Whose } from "../worker/protocol";
 
 export interface Side {
@@ -16,53 +17,38 @@ export interface Side {
   picture: [Whose, string] | null;
 }
 
-const KINDS = {
-  depth: "depth",
-  flow: "motion",
-  labels: "labels",
-  occlusion: "occlusion",
-  confidence: "confidence",
-  arrows: "arrows",
-  residual: "residual",
-} as const;
+const { split: words, whose: WHOSE } = text;
+const KINDS = words.kinds;
 
 type Kind = keyof typeof KINDS;
 
-/** What errors are of, and what each asks of the core. */
-export const ERRORS = {
-  "error-flow": "motion",
-  "error-depth": "depth",
-  "error-labels": "labels",
-} as const;
-
-const side = (of: Whose, whose: string, kind: Kind): Side => ({
+const side = (of: Whose, kind: Kind): Side => ({
   id: `${of} ${kind}`,
-  label: `${whose}: ${KINDS[kind]}`,
-  whose,
+  label: words.side(WHOSE[of], KINDS[kind]),
+  whose: WHOSE[of],
   picture: [of, kind],
 });
 
 const frame = (which: string, label: string): Side => ({
   id: `frame ${which}`,
   label,
-  whose: "Frames",
+  whose: WHOSE.frames,
   picture: null,
 });
 
 export const SIDES: Side[] = [
-  frame("first", "First frame"),
-  frame("second", "Second frame"),
-  ...(Object.keys(KINDS) as Kind[]).map((kind) => side("found", "Found", kind)),
-  ...(["depth", "flow", "labels", "occlusion"] as const).map((kind) =>
-    side("truth", "Truth", kind),
-  ),
-  ...(["flow", "arrows"] as const).map((kind) => side("horn-schunck", "Horn–Schunck", kind)),
-  ...Object.entries(ERRORS).map(([kind, what]) => ({
-    ...{ id: `found ${kind}`, label: `Error: ${what}`, whose: "Error" },
-    picture: ["found", kind] as [Whose, string],
+  frame("first", words.first),
+  frame("second", words.second),
+  ...(Object.keys(KINDS) as Kind[]).map((kind) => side("found", kind)),
+  ...(["depth", "flow", "labels", "occlusion"] as const).map((kind) => side("truth", kind)),
+  ...(["flow", "arrows"] as const).map((kind) => side("horn-schunck", kind)),
+  ...(["flow", "depth", "labels"] as const).map((kind) => ({
+    id: `found error-${kind}`,
+    ...{ label: words.side(WHOSE.error, KINDS[kind]), whose: WHOSE.error },
+    picture: ["found", `error-${kind}`] as [Whose, string],
   })),
   {
-    ...{ id: "horn-schunck error-flow", label: "Error: Horn–Schunck’s motion", whose: "Error" },
+    ...{ id: "horn-schunck error-flow", label: words.errorOfBaseline, whose: WHOSE.error },
     picture: ["horn-schunck", "error-flow"],
   },
 ];

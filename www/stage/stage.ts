@@ -7,6 +7,7 @@
 
 import { byId, make } from "../dom";
 import { store, type Split, type State } from "../store";
+import { text } from "../text";
 import { asks, awaited, captionsOf, viewOf } from "../views";
 import type { Contour } from "../worker/protocol";
 import { SharpCanvas } from "./canvas";
@@ -206,7 +207,8 @@ function placeCaptions(layout: Pane[]): void {
 /** A picture under another's name would be mistaken for it: it dims, and its captions go. */
 function wait(state: Readonly<State>): void {
   byId("stage").ariaBusy = String(awaited(state));
-  byId("awaited").textContent = state.running ? "Drawn once this pass is done…" : "Being drawn…";
+  const { drawnAfterPass, beingDrawn } = text.stage;
+  byId("awaited").textContent = state.running ? drawnAfterPass : beingDrawn;
 }
 
 let beat: ReturnType<typeof setInterval> | undefined;

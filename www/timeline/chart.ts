@@ -6,6 +6,7 @@
  */
 
 import { lengthOf, type Line, type Timeline } from "./line";
+import { text } from "../text";
 import { scaleName } from "./sentences";
 
 const SPACE = "http://www.w3.org/2000/svg";
@@ -119,7 +120,10 @@ export function scalesOf(timeline: Timeline, current: number): { share: number; 
     const name = scaleName(pass);
     if (name === last || name === "") continue;
     last = name;
-    begins.push({ share: Math.max(0, at - 0.5 - timeline.first) / length, name: `scale ${name}` });
+    begins.push({
+      share: Math.max(0, at - 0.5 - timeline.first) / length,
+      name: text.timeline.scale(name),
+    });
   }
   return begins;
 }

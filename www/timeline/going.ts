@@ -6,6 +6,7 @@ import { present, recorded } from "../memory/history";
 import { paceOf } from "../pace";
 import { command } from "../session";
 import { store, type State } from "../store";
+import { text } from "../text";
 import { branched, endOf, standingAt, type Visit } from "./line";
 
 /** Where the page is on the timeline: the line and the number of passes. */
@@ -106,7 +107,7 @@ export async function goOn(): Promise<void> {
     part(false);
   });
   if (!done) store.update({ timeline });
-  else announce(`Going on from pass ${from.at}.`);
+  else announce(text.timeline.goingOn(from.at));
 }
 
 /** Says of the second line whether it went on with all that was found. */

@@ -6,6 +6,7 @@
 import { announce, byId, icon, make } from "../dom";
 import { look } from "../looking";
 import { store, type State } from "../store";
+import { text } from "../text";
 import { drawChart, scalesOf, shareOf } from "./chart";
 import { apartAt, flicker, flickers } from "./compare";
 import { firstOf, goOn, goTo, isPlaying, onPlaying, placeOf, play, stop, walk } from "./going";
@@ -16,43 +17,50 @@ import {
   energySentence,
   lineName,
   passSentence,
-  START,
   thinnedSentence,
 } from "./sentences";
 
+const words = text.timeline;
+
 /** How long a pass is shown when the timeline plays, milliseconds. */
-const BEATS = [
-  { value: 2500, label: "2.5 s a pass" },
-  { value: 1200, label: "1.2 s a pass" },
-  { value: 500, label: "0.5 s a pass" },
-];
+const BEATS = [2500, 1200, 500];
 const USUAL = 1200;
 
-const back = button("Back a pass", "step");
-const playing = button("Play the passes", "run");
-const on = button("On a pass", "step");
-const beat = make("select", { "aria-label": "Time of a pass when they play", class: "beat" });
+const back = button(words.back, "step");
+const playing = button(words.play, "run");
+const on = button(words.forth, "step");
+const beat = make("select", { "aria-label": words.beat, class: "beat" });
 const chart = document.createElementNS("http://www.w3.org/2000/svg", "svg");
 const scales = make("div", { class: "scales", "aria-hidden": "true" });
-const range = make("input", { type: "range", id: "pass", min: 0, step: 1, "aria-label": "Pass" });
+const range = make("input", {
+  type: "range",
+  id: "pass",
+  min: 0,
+  step: 1,
+  "aria-label": words.pass,
+});
 const sentence = make("p", { id: "pass-sentence", class: "sentence" });
 const going = make(
   "button",
   { type: "button", id: "go-on" },
-  "Go on",
-  make("span", {}, "\u00a0from here"),
+  words.goOn,
+  make("span", {}, `\u00a0${words.fromHere}`),
 );
 const lines = make("fieldset", { class: "segments small" });
-const turns = make("button", { type: "button", id: "flicker", "aria-pressed": "false" }, "Flicker");
+const turns = make(
+  "button",
+  { type: "button", id: "flicker", "aria-pressed": "false" },
+  words.flicker,
+);
 const pair = make(
   "button",
   {
     type: "button",
     id: "beside",
     "aria-pressed": "false",
-    title: "The reliefs of both lines under one light",
+    title: words.besideTitle,
   },
-  "Side by side",
+  words.beside,
 );
 const apart = make("p", { id: "apart", class: "apart" });
 const two = make("div", { class: "two-lines", hidden: true }, lines, turns, pair, apart);
@@ -64,7 +72,9 @@ function button(name: string, picture: string): HTMLButtonElement {
 
 export function mountTimeline(): void {
   beat.append(
-    ...BEATS.map(({ value, label }) => make("option", { value, selected: value === USUAL }, label)),
+    ...BEATS.map((value) =>
+      make("option", { value, selected: value === USUAL }, words.beats(value / 1000)),
+    ),
   );
   chart.setAttribute("class", "energy-line");
   chart.setAttribute("aria-hidden", "true");
@@ -92,7 +102,7 @@ export function mountTimeline(): void {
   });
   onPlaying((plays) => {
     playing.replaceChildren(icon(plays ? "pause" : "run"));
-    playing.title = plays ? "Stop playing" : "Play the passes";
+    playing.title = plays ? words.stop : words.play;
     playing.ariaLabel = playing.title;
   });
   going.addEventListener("click", () => {
@@ -186,7 +196,7 @@ function drawLines(state: Readonly<State>): void {
     return flickering(false);
   }
   lines.replaceChildren(
-    make("legend", { class: "visually-hidden" }, "Line shown"),
+    make("legend", { class: "visually-hidden" }, words.lineShown),
     ...timeline.lines.map((line, i) =>
       make(
         "label",
@@ -222,19 +232,17 @@ function show(state: Readonly<State>): void {
   range.dataset["line"] = String(place.line);
   const text = report
     ? passSentence(timeline, line, at, report) + thinnedSentence(place.at, at)
-    : START;
+    : words.start;
   const left = report ? energySentence(timeline, line, at) : "";
   sentence.textContent = `${text} ${left}`;
-  range.setAttribute("aria-valuetext", report ? `Pass ${at} of ${end}. ${left}` : "The start");
+  range.setAttribute("aria-valuetext", report ? words.place(at, end, left) : words.startShort);
   const choice = lines.querySelector<HTMLInputElement>(`input[value="${place.line}"]`);
   if (choice) choice.checked = true;
   back.disabled = place.at <= firstOf(state);
   on.disabled = place.at >= end;
   playing.disabled = end <= firstOf(state);
   going.disabled = state.visit === null || busy !== null;
-  going.title = going.disabled
-    ? "Go back to a pass first"
-    : "Runs on from the pass shown, with the settings as they are now, as a second line";
+  going.title = going.disabled ? words.goBackFirst : words.goOnTitle;
   compare(timeline, place.at, running);
 }
 

@@ -5,6 +5,7 @@
 
 import * as Comlink from "comlink";
 
+import { text } from "../text";
 import type { Failure, Progress, Service } from "./protocol";
 
 export type Remote = Comlink.Remote<Service>;
@@ -81,7 +82,7 @@ export class Client {
     this.ended.catch(() => {});
     worker.addEventListener("error", (event) => {
       event.preventDefault();
-      const message = event.message || "the worker could not be started";
+      const message = event.message || text.page.workerFailed;
       this.abandon(Object.assign(new Error(message), { name: "Panic" }));
       // While it runs by itself there is no call that could hear of it.
       if (this.worker === worker) this.listener.failure({ message, panic: true });

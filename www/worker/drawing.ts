@@ -6,6 +6,7 @@
 
 import type { Kept, Picture, Solver } from "./core";
 import { baselineOf, type Owned } from "./owned";
+import { text } from "../text/worker";
 import type { Legend, PictureRequest } from "./protocol";
 
 /** Frames with more pixels are drawn smaller. */
@@ -56,6 +57,6 @@ const measured = (owned: Owned, found: Found, of: PictureRequest["of"]) =>
   of === "horn-schunck" ? baselineOf(owned) : found;
 
 function known({ truth }: Owned) {
-  if (!truth) throw new Error("the truth of these frames is not known");
+  if (!truth) throw new Error(text.noTruth);
   return truth;
 }

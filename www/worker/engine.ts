@@ -5,6 +5,7 @@
  * opened or configured is built anew before the old is let go, so an error leaves things as they were.
  */
 
+import { text } from "../text/worker";
 import { decode, findCurves, findFocal, Kept, type Solver } from "./core";
 import { carriedOn } from "./carried";
 import { drawn, legendOf, MOST_PIXELS } from "./drawing";
@@ -79,7 +80,7 @@ export class Engine {
       if (found) await this.restore(setup, found).catch(() => {});
       const { scene } = owned;
       return {
-        title: scene?.title ?? "Your own frames",
+        title: scene?.title ?? text.own,
         lesson: scene?.lesson ?? "",
         width: owned.first.width,
         height: owned.first.height,
@@ -373,7 +374,7 @@ export class Engine {
   private present(): { owned: Owned; solver: Solver; setup: Setup } {
     const { owned, solver, setup } = this;
     if (!owned || !solver || !setup) {
-      throw new Error("no frames are open; pick a sequence or open two frames");
+      throw new Error(text.noFrames);
     }
     return { owned, solver, setup };
   }

@@ -11,6 +11,7 @@ import {
   type LensEntry,
 } from "./core";
 import { bitmap } from "./pictures";
+import { text } from "../text/worker";
 import type { FrameFile, KnownParts, ScoreTable, Setup, Source } from "./protocol";
 
 export interface Owned {
@@ -47,9 +48,9 @@ function lensOf({ first, second }: Owned): LensEntry | null {
 }
 
 export function focalFrom(owned: Owned): string {
-  if (owned.scene) return "f is the sequence's own.";
+  if (owned.scene) return text.focalOfSequence;
   const lens = lensOf(owned);
-  return lens ? `f is from ${lens.text}.` : "f is a guess: the frame's width.";
+  return lens ? text.focalOfLens(lens.text) : text.focalGuessed;
 }
 
 /** The frames as they are solved and shown: stretched alike where they use few levels. */

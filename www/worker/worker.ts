@@ -7,6 +7,7 @@
 
 import * as Comlink from "comlink";
 
+import { text } from "../text/worker";
 import { catalogues, fileKind, load, panicMessage, viewsOf } from "./core";
 import { Engine } from "./engine";
 import { keepPass, takePasses } from "./passes";
@@ -82,7 +83,7 @@ async function guard<T>(work: () => T | Promise<T>): Promise<T> {
     await ready;
   } catch (error) {
     const reason = error instanceof Error ? error.message : String(error);
-    throw Object.assign(new Error(`the core cannot be loaded: ${reason}`), { name: "Unloaded" });
+    throw Object.assign(new Error(text.notLoaded(reason)), { name: "Unloaded" });
   }
   try {
     return await work();
