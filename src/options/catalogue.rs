@@ -217,7 +217,7 @@ static CATALOGUE: &[Descriptor] = &[
         key: "max_passes",
         group: STOPPING,
         main: false,
-        label: "Maximum of passes",
+        label: "Pass limit",
         meaning: "The solver stops after this number of passes, even if curves still move.",
         term: "stopping",
         unit: "",
