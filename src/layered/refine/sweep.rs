@@ -24,7 +24,7 @@ const STEPS_A_PIXEL: f32 = 2.0;
 const MOST_PIXELS: usize = 640 * 480;
 
 /// The range of u that the matches of one motion need, with a margin; |T| is 1. `None` with fewer than eight, and
-/// where depths have no sign.
+/// where they reach farther behind the camera than before it.
 pub fn match_range(matches: &[Match], found: &EpipolarMotion, camera: &Camera) -> Option<[f32; 2]> {
     let view = View::of(camera, &found.motion);
     let mut all: Vec<f32> = matches
@@ -39,8 +39,8 @@ pub fn match_range(matches: &[Match], found: &EpipolarMotion, camera: &Camera) -
     }
     all.sort_unstable_by(f32::total_cmp);
     let (low, high) = (all[all.len() / 100], all[all.len() - 1 - all.len() / 150]);
-    // As much behind the camera as before it: no motion of something seen.
-    if low < -0.5 * high {
+    // Farther behind the camera than before it: no motion of something seen.
+    if low < -high {
         return None;
     }
     // Near things are small and so have few matches.
