@@ -65,24 +65,24 @@ export const expected = {
 /** What a pass did, and where that comes from. */
 const stages = {
   planes: {
-    did: "each region was modelled as a plane, and its image motion was estimated",
-    from: "data term of (7), Gauss–Newton; labels by graph cuts",
+    did: "a plane was fitted to each region",
+    from: "the data term of (7), by Gauss–Newton and graph cuts",
   },
   search: {
-    did: "motions in many directions were tried for each region; the best was kept, with its depth",
-    from: "(7) with (1), Gauss–Newton from each start; labels by graph cuts",
+    did: "motions in many directions were tried, and the best was kept",
+    from: "(7) with (1), by Gauss–Newton and graph cuts",
   },
   selection: {
-    did: "motion and depth were refined; a motion model was selected for each region (still, rotation, translation or both)",
-    from: "(7), Gauss–Newton, with a cost for each parameter of the motion; labels by graph cuts",
+    did: "motion and depth were refined, and motion models were compared",
+    from: "(7) and a price per model, by Gauss–Newton and graph cuts",
   },
   surfaces: {
-    did: "motion and depth of each region were refined",
-    from: "(7), Gauss–Newton; labels by graph cuts",
+    did: "motion and depth were refined",
+    from: "(7), by Gauss–Newton and graph cuts",
   },
   steps: {
-    did: "depth was estimated pixel by pixel where a smooth surface does not fit",
-    from: "plane sweep over ψ, with semi-global matching",
+    did: "depth was estimated pixel by pixel where a surface does not fit",
+    from: "ψ, by a plane sweep and semi-global matching",
   },
   descent: {
     did: "one step each of motions, depth and curves",
@@ -125,17 +125,17 @@ export const timeline = {
   /** Of which scale a pass was, within a sentence on it. */
   scaleOf: (scale: number, of: number) => `, scale ${scale} of ${of}`,
   did: (pass: number, scale: string, stage: Stage, changed: string) =>
-    `Pass ${pass}${scale}: ${stages[stage].did}. ${changed} Method: ${stages[stage].from}.`,
+    `Pass ${pass}${scale}: ${stages[stage].did}. ${changed} From ${stages[stage].from}.`,
   takenBack: (pass: number, scale: string, stage: Stage) =>
-    `Pass ${pass}${scale}: ${stages[stage].did}. This raised the energy (7), so the pass was undone. The scale is finished.`,
+    `Pass ${pass}${scale}: ${stages[stage].did}. This raised (7), so it was undone, and the scale is finished.`,
   noSteps: (pass: number, scale: string) =>
-    `Pass ${pass}${scale}: depth was estimated pixel by pixel, but this explained no region better. Nothing changed. Method: ${stages.steps.from}.`,
+    `Pass ${pass}${scale}: depth was estimated pixel by pixel, but explained no region better. Nothing changed. From ${stages.steps.from}.`,
   adopted: (regions: number) =>
     regions === 1 ? "It was adopted in 1 region." : `It was adopted in ${regions} regions.`,
   /** `pixels` is the number as it is written. */
   changed(count: number, pixels: string): string {
-    if (count === 0) return "No pixel changed its region.";
-    return count === 1 ? "1 pixel changed its region." : `${pixels} pixels changed their region.`;
+    if (count === 0) return "No pixel changed region.";
+    return count === 1 ? "1 pixel changed region." : `${pixels} pixels changed region.`;
   },
   goneOn: (pass: number) => `Continued from pass ${pass}.`,
   goneOnFromCurves: (pass: number) =>
@@ -143,7 +143,7 @@ export const timeline = {
   notKept: (pass: number) => `(Pass ${pass} is no longer kept.)`,
 
   energy: (energy: string) => `E ${energy}.`,
-  newSum: (energy: string) => `E ${energy}, not comparable with the pass before.`,
+  newSum: (energy: string) => `E ${energy}, a new sum.`,
   asBefore: (energy: string) => `E ${energy}, unchanged.`,
   less: (energy: string, share: string) => `E ${energy}, ${share} lower than before.`,
   more: (energy: string, share: string) => `E ${energy}, ${share} higher than before.`,

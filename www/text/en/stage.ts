@@ -73,7 +73,7 @@ export const settings = {
   plaster: "Plaster",
   wireframe: "Wireframe",
   normals: "Normals",
-  ghosts: "Show unknown depth, transparent",
+  ghosts: "Unknown depth",
   compare: "Compare",
   error: "Error of",
 };
