@@ -105,5 +105,5 @@ fn frames_of_few_levels_are_said_to_be_faint() {
         panic!("{:?}", pair.notes());
     };
     assert!((8..=17).contains(levels), "{levels}");
-    assert!(pair.notes()[0].to_string().contains("faint"));
+    assert!(pair.notes()[0].to_string().contains("little contrast"));
 }
