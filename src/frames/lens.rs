@@ -8,23 +8,16 @@
 //! side is the longer side of the frame, side₀ that of the photo when it was taken: a photo that was made smaller since has
 //! a smaller f. A photo that was cropped since has not, and its data do not say so.
 
+use exif::{Exif, In, Reader, Tag, Value};
 use serde::Serialize;
-
-use super::exif::Exif;
 
 /// Width of a frame of 35 mm film, mm.
 const FILM: f64 = 36.0;
 /// Focal lengths that lenses have, in shares of the longer side.
 const PLAUSIBLE: std::ops::RangeInclusive<f64> = 0.1..=100.0;
-
-/// EXIF's tags.
-const ORIENTATION: u16 = 0x0112;
-const FOCAL_LENGTH: u16 = 0x920a;
-const COLUMNS: u16 = 0xa002;
-const ROWS: u16 = 0xa003;
-const SENSOR_RESOLUTION: u16 = 0xa20e;
-const SENSOR_UNIT: u16 = 0xa210;
-const FILM_FOCAL_LENGTH: u16 = 0xa405;
+/// TIFF files of more bytes are not searched.
+#[cfg(feature = "decoders")]
+const MOST_TIFF: usize = 64_000_000;
 
 /// What a photo says of its lens.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -66,12 +59,19 @@ impl std::fmt::Display for Lens {
 }
 
 impl Lens {
-    /// Of an EXIF block, or a TIFF file, which is one itself, and the size of the frame.
+    /// Of an EXIF block and the size of the frame.
     pub(super) fn of_exif(block: &[u8], width: usize, height: usize) -> Option<Self> {
-        let data = Exif::new(block)?;
+        let data = Reader::new().read_raw(block.to_vec()).ok()?;
         let side = width.max(height) as f64;
-        let found = of_film(data, side).or_else(|| of_sensor(data, side));
+        let found = of_film(&data, side).or_else(|| of_sensor(&data, side));
         found.filter(|lens| PLAUSIBLE.contains(&(lens.focal / side)))
+    }
+
+    /// Of a TIFF file, which is an EXIF block itself.
+    #[cfg(feature = "decoders")]
+    pub(super) fn of_tiff(bytes: &[u8], width: usize, height: usize) -> Option<Self> {
+        let small = bytes.len() <= MOST_TIFF;
+        small.then(|| Self::of_exif(bytes, width, height))?
     }
 
     /// The same lens on the frame shrunk `n` times.
@@ -83,8 +83,8 @@ impl Lens {
     }
 }
 
-fn of_film(data: Exif, side: f64) -> Option<Lens> {
-    let millimetres = number(data, FILM_FOCAL_LENGTH)?;
+fn of_film(data: &Exif, side: f64) -> Option<Lens> {
+    let millimetres = number(data, Tag::FocalLengthIn35mmFilm)?;
     Some(Lens {
         focal: millimetres / FILM * side,
         source: LensSource::Film,
@@ -92,16 +92,16 @@ fn of_film(data: Exif, side: f64) -> Option<Lens> {
     })
 }
 
-fn of_sensor(data: Exif, side: f64) -> Option<Lens> {
-    let millimetres = number(data, FOCAL_LENGTH)?;
-    let resolution = number(data, SENSOR_RESOLUTION)?;
-    let unit = match number(data, SENSOR_UNIT).unwrap_or(2.0) as u32 {
+fn of_sensor(data: &Exif, side: f64) -> Option<Lens> {
+    let millimetres = number(data, Tag::FocalLength)?;
+    let resolution = number(data, Tag::FocalPlaneXResolution)?;
+    let unit = match number(data, Tag::FocalPlaneResolutionUnit).unwrap_or(2.0) as u32 {
         2 => 25.4,
         3 => 10.0,
         4 => 1.0,
         _ => return None,
     };
-    let sides = [COLUMNS, ROWS];
+    let sides = [Tag::PixelXDimension, Tag::PixelYDimension];
     let taken = sides
         .into_iter()
         .filter_map(|tag| number(data, tag))
@@ -115,13 +115,21 @@ fn of_sensor(data: Exif, side: f64) -> Option<Lens> {
 }
 
 /// A number above 0.
-fn number(data: Exif, tag: u16) -> Option<f64> {
-    let value = data.of_exposure(tag)?;
+fn number(data: &Exif, tag: Tag) -> Option<f64> {
+    let value = match &data.get_field(tag, In::PRIMARY)?.value {
+        Value::Rational(all) => all.first()?.to_f64(),
+        other => f64::from(other.get_uint(0)?),
+    };
     (value.is_finite() && value > 0.0).then_some(value)
 }
 
 /// What makes a picture with these EXIF data stand upright, 1–8 as EXIF counts.
 pub(super) fn orientation(block: &[u8]) -> u8 {
-    let told = Exif::new(block).and_then(|data| data.of_picture(ORIENTATION));
-    told.map_or(1, |n| n as u8)
+    let data = Reader::new().read_raw(block.to_vec()).ok();
+    let found = data.and_then(|data| {
+        data.get_field(Tag::Orientation, In::PRIMARY)?
+            .value
+            .get_uint(0)
+    });
+    found.and_then(|n| u8::try_from(n).ok()).unwrap_or(1)
 }

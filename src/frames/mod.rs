@@ -3,7 +3,6 @@
 mod absent;
 mod apng;
 mod derivatives;
-mod exif;
 mod fields;
 mod film;
 mod frame;

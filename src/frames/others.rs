@@ -108,7 +108,7 @@ fn first_page(bytes: &[u8], name: &str) -> Result<Raw, Error> {
     let (width, height) = (width as usize, height as usize);
     check_size(name, width, height)?;
     Ok(Raw {
-        lens: Lens::of_exif(bytes, width, height),
+        lens: Lens::of_tiff(bytes, width, height),
         ..pages.read().map_err(refuse)?
     })
 }
