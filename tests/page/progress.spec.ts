@@ -31,12 +31,11 @@ test("a run says what it does, shows a bar that grows, and the time left", async
   await expect(page.locator("#doing")).toContainText(/Estimating outlines.*scale \d of 2/);
   await expect(page.locator("#doing")).toContainText(/About .*left/);
   const values: number[] = [];
-  while (await bar.isVisible()) {
-    // It may be gone by now: then there is nothing to wait for.
-    const value = bar.evaluate((element: HTMLProgressElement) => element.value, null, {
-      timeout: 1000,
-    });
-    values.push(await value.catch(() => values.at(-1) ?? 0));
+  // Its value and whether it is there, at once: when the run ends it is set back.
+  const value = () =>
+    page.locator("#progress").evaluate((bar: HTMLProgressElement) => (bar.hidden ? null : bar.value));
+  for (let now = await value(); now !== null; now = await value()) {
+    values.push(now);
     await page.waitForTimeout(150);
   }
   expect(values.length).toBeGreaterThan(2);

@@ -237,7 +237,7 @@ test("all passes are there after a reload, and can be gone on from", async ({ op
   expect(await energies(page)).toEqual(kept);
   await expect(slider(page)).toHaveValue(String(kept[0]!.length));
   await scrub(page, 4);
-  expect(await picture(page)).toBe(seen);
+  await expect.poll(() => picture(page), { timeout: PATIENCE }).toBe(seen);
   await page.getByRole("button", { name: "Go on from here" }).click();
   await until(
     page,
