@@ -33,7 +33,9 @@ test("a run says what it does, shows a bar that grows, and the time left", async
   const values: number[] = [];
   // Its value and whether it is there, at once: when the run ends it is set back.
   const value = () =>
-    page.locator("#progress").evaluate((bar: HTMLProgressElement) => (bar.hidden ? null : bar.value));
+    page
+      .locator("#progress")
+      .evaluate((bar: HTMLProgressElement) => (bar.hidden ? null : bar.value));
   for (let now = await value(); now !== null; now = await value()) {
     values.push(now);
     await page.waitForTimeout(150);
