@@ -23,7 +23,8 @@ const browsers = {
 export default defineConfig({
   testDir: "tests/page",
   forbidOnly: !!process.env["CI"],
-  workers: 1,
+  // A test waits more than it works.
+  workers: 2,
   // A machine that is shared may starve a test once; what fails twice is broken, and what passed at the second try is named.
   retries: 1,
   timeout: 60_000,

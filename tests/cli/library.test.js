@@ -132,7 +132,7 @@ describe("a solver", () => {
     const whole = JSON.parse(new Truth(first, second, scene.files().slice(2)).known());
     assert.ok(Object.values(whole).every(Boolean));
     assert.throws(() => new Truth(first, second, scene.files().slice(0, 1)), {
-      message: /is no truth/,
+      message: /is no ground truth/,
     });
     const large = new Scene("blocks", 2 * WIDTH, 2 * HEIGHT).files();
     assert.throws(() => new Truth(first, second, large.slice(2, 3)), {
