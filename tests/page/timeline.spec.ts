@@ -172,7 +172,7 @@ test("a second line goes on with other settings, and both are compared", async (
   await until(page, ({ visit }) => visit?.line === 0);
   await scrub(page, end - 1);
   await scrub(page, end);
-  expect(await picture(page)).toBe(before);
+  await expect.poll(() => picture(page), { timeout: PATIENCE }).toBe(before);
   // In turn.
   await page.getByRole("button", { name: "Flicker" }).click();
   for (const print of [after, before, after]) {
