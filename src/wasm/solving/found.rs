@@ -33,14 +33,6 @@ const LARGEST: usize = 25_000_000;
 /// Pixels of `relief.png` at most: its surface has fewer vertices than that.
 const RELIEF: usize = 2_000_000;
 
-/// With a limit on pixels, if none was asked for.
-fn saved(params: ViewParams) -> ViewParams {
-    ViewParams {
-        pixels: Some(params.pixels.unwrap_or(LARGEST)),
-        ..params
-    }
-}
-
 /// A curve as the solver has moved it.
 #[derive(Serialize, Tsify)]
 #[tsify(rename = "Contour")]
@@ -96,28 +88,15 @@ impl Solver {
         Ok(Mesh(view::mesh(frames.first(), &found, &params)))
     }
 
-    /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`]; without `pixels`, of
-    /// frames of more than 25 megapixels all is written as of the frames shrunk until they have no more, as for half as
-    /// large frames.
+    /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`]. Of frames of more than
+    /// 25 megapixels all is written as of the frames shrunk until they have no more.
     #[wasm_bindgen(unchecked_return_type = "{ name: string; bytes: Uint8Array<ArrayBuffer> }[]")]
     pub fn files(&self, params: &Json) -> Result<Array, Error> {
-        let params = saved(params.view_params()?);
-        let n = self.shrunk_for(&params);
-        let shrunk;
-        let found = if n == 1 {
-            self.found()
-        } else {
-            shrunk = self.found_shrunk(n);
-            &shrunk
-        };
-        let scaled;
-        let found = if params.scales.iter().all(|&s| s == 1.0) {
-            found
-        } else {
-            scaled = found.scaled(&params.scales);
-            &scaled
-        };
-        let mut files = result::write(found, &self.motion_file(found))?;
+        let mut params = params.view_params()?;
+        params.pixels = params.pixels.or(Some(LARGEST));
+        let mut files = self.written(&params, |found| {
+            result::write(found, &self.motion_file(found))
+        })?;
         for (kind, name) in PICTURES {
             let mut params = params.clone();
             if kind == "relief" {
@@ -128,22 +107,20 @@ impl Solver {
         Ok(listed(files))
     }
 
-    /// One of those that measure, `labels.png`, `depth.pfm`, `depth16.png`, `flow.flo`, `occlusion.png`, `motion.json`; or
-    /// the relief under the first frame, `relief.glb`, or with a colour for each vertex, `relief.ply`.
+    /// One of those that measure, `labels.png`, `depth.pfm`, `depth16.png`, `flow.flo`, `occlusion.png`, `motion.json`, as large
+    /// as [`Solver::files`] has them; or the relief under the first frame, `relief.glb`, or with a colour for each vertex,
+    /// `relief.ply`, of at most `pixels`.
     #[wasm_bindgen(unchecked_return_type = "Uint8Array<ArrayBuffer>")]
     pub fn file(&self, name: &Word, params: &Json) -> Result<Uint8Array, Error> {
-        let params = params.view_params()?;
-        let n = self.shrunk_for(&saved(params.clone()));
-        let found = if n == 1 {
-            self.found().scaled(&params.scales)
-        } else {
-            self.found_shrunk(n).scaled(&params.scales)
-        };
-        let motion = self.motion_file(&found);
-        files::one(&name.text("name of the file")?, &found, &motion, || {
-            let n = self.shrunk_for(&params);
-            let frame = self.solver().frames_shrunk(n).first().clone();
-            (view::mesh(&frame, &self.found_shrunk(n), &params), frame)
+        let mut params = params.view_params()?;
+        params.pixels = params.pixels.or(Some(LARGEST));
+        let name = name.text("name of the file")?;
+        self.written(&params, |found| {
+            files::one(&name, found, &self.motion_file(found), || {
+                let n = self.shrunk_for(&params);
+                let frame = self.solver().frames_shrunk(n).first().clone();
+                (view::mesh(&frame, &self.found_shrunk(n), &params), frame)
+            })
         })
     }
 
@@ -185,6 +162,23 @@ impl Solver {
 
     pub(super) fn found(&self) -> &Interpretation {
         self.found.get_or_init(|| self.solver().interpretation())
+    }
+
+    /// Does something with what files are written of, whatever size pictures are asked for.
+    fn written<T>(&self, params: &ViewParams, write: impl FnOnce(&Interpretation) -> T) -> T {
+        let n = self.solver().shrunk_for(LARGEST);
+        let shrunk;
+        let found = if n == 1 {
+            self.found()
+        } else {
+            shrunk = self.found_shrunk(n);
+            &shrunk
+        };
+        if params.scales.iter().all(|&s| s == 1.0) {
+            write(found)
+        } else {
+            write(&found.scaled(&params.scales))
+        }
     }
 
     /// How many times frames are shrunk to be drawn on.
