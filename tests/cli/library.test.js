@@ -82,14 +82,14 @@ describe("a solver", () => {
   });
 
   test("files that measure are as large as the frames, whatever size pictures are drawn at", () => {
-    const large = new Scene("squares", 640, 480);
+    const large = new Scene("squares", 960, 720);
     const fast = JSON.stringify({ detail: "fast", max_passes: 1 });
     const [first, second] = [large.first(), large.second()];
     const solver = new Solver(first, second, large.cameraJson, large.shapesJson, fast);
     solver.step();
     const sizeOf = (/** @type {Uint8Array} */ png) => Frame.decode(png, "labels.png").width;
-    assert.equal(sizeOf(solver.file("labels.png", { pixels: 100_000 })), 640);
-    assert.equal(solver.view("depth", { pixels: 100_000 }).width, 320);
+    assert.equal(sizeOf(solver.file("labels.png", { pixels: 200_000 })), 960);
+    assert.equal(solver.view("depth", { pixels: 200_000, magnify: 1 }).width, 480);
   });
 
   test("gives a relief whose triangles stand on its vertices", () => {
