@@ -2,6 +2,7 @@
 
 import AxeBuilder from "@axe-core/playwright";
 
+import type { State } from "../../www/store";
 import {
   expect,
   look,
@@ -75,18 +76,43 @@ test("those who want no motion see the end of it at once", async ({ page }) => {
   expect(await read(page, ({ report }) => report!.status)).toBe("converged");
 });
 
-test("the picture comes before the core is asked for, and takes little", async ({ page }) => {
-  const client = await page.context().newCDPSession(page);
-  await client.send("Network.enable");
-  let bytes = 0;
-  client.on("Network.loadingFinished", ({ encodedDataLength }) => (bytes += encodedDataLength));
-  const asked: string[] = [];
-  await page.route(/\.wasm$/, (route) => asked.push(route.request().url()));
-  await page.goto("./");
-  await until(page, ({ playing, pictures }) => playing && pictures.length > 0);
-  // 10 Mbit/s bring it in a quarter of a second.
-  expect(bytes).toBeGreaterThan(50_000);
-  expect(bytes).toBeLessThan(300_000);
+test("the picture comes before the core is asked for, within a second on a line of 10 Mbit/s", async ({
+  browser,
+  baseURL,
+}) => {
+  /** Milliseconds until there is a picture, and bytes that it took. */
+  const load = async () => {
+    const context = await browser.newContext({ baseURL, bypassCSP: true, serviceWorkers: "block" });
+    const page = await context.newPage();
+    const client = await context.newCDPSession(page);
+    await client.send("Network.enable");
+    await client.send("Network.emulateNetworkConditions", {
+      offline: false,
+      latency: 20,
+      downloadThroughput: 10e6 / 8,
+      uploadThroughput: 10e6 / 8,
+    });
+    let bytes = 0;
+    client.on("Network.loadingFinished", ({ encodedDataLength }) => (bytes += encodedDataLength));
+    await page.route(/\.wasm$/, () => {});
+    await page.goto("./");
+    const shown = await page.waitForFunction(() => {
+      const state = (window as unknown as { relievo?: State }).relievo;
+      return !!state?.playing && state.pictures.length > 0 && performance.now();
+    });
+    expect((await look(page)).colours).toBeGreaterThan(20);
+    const passed = (await shown.jsonValue()) as number;
+    await context.close();
+    return { passed, bytes };
+  };
+  const loads = [await load()];
+  expect(loads[0]!.bytes).toBeGreaterThan(50_000);
+  expect(loads[0]!.bytes).toBeLessThan(300_000);
+  // A busy machine delays a load, a slow page delays each.
+  while (Math.min(...loads.map(({ passed }) => passed)) > 1000 && loads.length < 8) {
+    loads.push(await load());
+  }
+  expect(Math.min(...loads.map(({ passed }) => passed))).toBeLessThan(1000);
 });
 
 test("a recording can be played again, and what was there before is a step back", async ({

@@ -34,7 +34,8 @@ export async function play(recording: Recording): Promise<void> {
 }
 
 async function showAll({ passes }: Recording, source: Source): Promise<void> {
-  const shown = still.matches ? passes.slice(-1) : passes.filter(({ picture }) => picture);
+  const last = passes.slice(-1);
+  const shown = still.matches ? last : [...passes.slice(0, -1).filter(hasDepth), ...last];
   for (const [i, pass] of shown.entries()) {
     if (i > 0) await new Promise((next) => setTimeout(next, BEAT_MS));
     // Somebody has opened or started something else meanwhile.
@@ -42,6 +43,10 @@ async function showAll({ passes }: Recording, source: Source): Promise<void> {
     await show(pass);
   }
 }
+
+/** Without translation nothing is known of depth, and its picture is empty. */
+const hasDepth = ({ report, picture }: Pass) =>
+  picture !== null && report.regions.some(({ translation }) => translation.some(Boolean));
 
 async function show({ report, contours, picture }: Pass): Promise<void> {
   if (!picture) return store.update({ report, contours });
