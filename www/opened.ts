@@ -32,6 +32,7 @@ export function adopt(
     height: opened.height,
     frames: opened.frames,
     names: opened.names,
+    interlaced: opened.interlaced,
     truth: opened.truth,
     ...(keep ? {} : { ...drawn(opened.setup), focalFrom: opened.focalFrom }),
     running: false,

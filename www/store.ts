@@ -18,6 +18,7 @@ import type {
   KnownParts,
   Legend,
   OptionValues,
+  Preview,
   Report,
   ScoreTable,
   Shape,
@@ -35,13 +36,7 @@ export interface Reel {
 }
 
 /** A frame of the user's own that waits for its partner. */
-export interface Slot {
-  name: string;
-  bytes: Uint8Array<ArrayBuffer>;
-  width: number;
-  height: number;
-  picture: ImageBitmap;
-}
+export type Slot = FrameFile & Preview;
 
 /** A result that has been put away, or is being. */
 export interface Held {
@@ -117,6 +112,7 @@ export interface State {
   height: number;
   frames: [ImageBitmap, ImageBitmap] | null;
   names: [string, string];
+  interlaced: [boolean, boolean];
   /** What is known to be true of the pair, if anything is. */
   truth: KnownParts | null;
   /** Frames of the user's own, waiting until both are there and fit. */
@@ -233,6 +229,7 @@ export const store = new Store({
   height: 0,
   frames: null,
   names: ["", ""],
+  interlaced: [false, false],
   truth: null,
   slots: [null, null],
   reel: null,

@@ -20,6 +20,7 @@ import {
 import {
   expect,
   inOpen,
+  inResult,
   inSettings,
   PATIENCE,
   png,
@@ -84,7 +85,9 @@ const openNumbers = (page: Page) =>
       context.drawImage(frame, 0, 0);
       let number = 0;
       for (let bit = 0; bit < 6; bit++) {
-        if (context.getImageData(16 * bit + 8, 6, 1, 1).data[0]! > 127) number |= 1 << bit;
+        // The tenth part of a row each.
+        const x = Math.floor((frame.width / 10) * (bit + 0.5));
+        if (context.getImageData(x, frame.height / 20, 1, 1).data[0]! > 127) number |= 1 << bit;
       }
       return number;
     });
@@ -254,6 +257,40 @@ test("two views in one file are a pair, and said to be one; a gain map is no vie
   const photo = await mpo(page, [one!, two!], "http://ns.adobe.com/xap/1.0/\0hdrgm:Version");
   await any(page).setInputFiles(file("phone.jpg", "image/jpeg", photo));
   await expect(page.locator("#slots-note")).toContainText("second frame is still missing");
+});
+
+test("an interlaced frame is said to be one, and its two fields open as a pair", async ({
+  opened: page,
+}) => {
+  const woven = moments(3, 3).map((even, n, all) => {
+    const odd = all[(n + 1) % 3]!;
+    const row = (y: number) => (y % 2 === 0 ? even : odd).data.subarray(160 * y, 160 * (y + 1));
+    const data = new Uint8Array(even.data.length);
+    for (let y = 0; y < even.height; y++) data.set(row(y), 160 * y);
+    return { ...even, data };
+  });
+  const [one, two] = await Promise.all(woven.map((frame) => still(page, frame)));
+  await any(page).setInputFiles(png("tape.png", one!));
+  const note = page.locator("#slots-note");
+  await expect(note).toContainText("tape.png seems to be interlaced");
+  await page.getByRole("button", { name: "Open its two fields" }).click();
+  await until(page, (state) => state.source?.kind === "files" && state.busy === null);
+  expect(await read(page, (state) => [state.width, state.height])).toEqual([80, 60]);
+  expect(await openNumbers(page)).toEqual([0, 1]);
+  await expect(page.locator("#lesson")).toContainText("The two fields of tape.png");
+
+  // Of a pair, what is warned of can be mended in place, also after a reload.
+  await any(page).setInputFiles([png("a.png", one!), png("b.png", two!)]);
+  await until(page, (state) => state.width === 160 && state.busy === null);
+  await solve(page);
+  const result = await inResult(page);
+  await expect(result.locator("#warnings")).toContainText("interlaced");
+  await until(page, ({ memory }) => !!memory?.some(({ resultBytes }) => resultBytes > 0));
+  await page.reload();
+  await until(page, ({ frames, busy, started }) => frames !== null && busy === null && started);
+  await (await inResult(page)).getByRole("button", { name: "Open its two fields" }).click();
+  await until(page, (state) => state.width === 80 && state.busy === null);
+  expect(await openNumbers(page)).toEqual([0, 1]);
 });
 
 test("photos bring the focal length that they were taken with", async ({ opened: page }) => {

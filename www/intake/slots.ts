@@ -43,6 +43,22 @@ export async function takePair(files: [FrameFile, FrameFile], note: string): Pro
   return openBoth(note);
 }
 
+/** Opens the two moments that an interlaced frame shows, in place of what is open. */
+export async function takeFields(frame: Slot): Promise<void> {
+  const { name, bytes } = frame;
+  const files = { name, bytes };
+  const [even, odd] =
+    (await ask(text.files.reading(name), (service) => service.fields(files))) ?? [];
+  if (!even || !odd) return;
+  const { field, twoFields } = text.files;
+  const pair = [even, odd] as const;
+  const [first, second] = pair.map((bytes, i) => ({
+    name: field(name, i === 0 ? 0 : 1),
+    bytes,
+  }));
+  await takePair([first!, second!], twoFields(name));
+}
+
 /** Puts `taken` in from place `at` on; a frame that cannot be its partner any more leaves. */
 export function put(taken: Slot[], at: number): void {
   const slots = store.state.slots.toSpliced(at, taken.length, ...taken) as State["slots"];

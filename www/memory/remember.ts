@@ -115,11 +115,11 @@ export async function resume(id: string, view?: string): Promise<boolean> {
 
 /** Frames of one's own lie in their slots. */
 async function fillSlots(source: Source): Promise<void> {
-  const { frames, width, height } = store.state;
+  const { frames, width, height, interlaced } = store.state;
   if (source.kind !== "files" || !frames) return;
   const slots = [source.first, source.second].map(async (file, i): Promise<Slot> => {
     const picture = await createImageBitmap(frames[i]!, { resizeWidth: 256 });
-    return { ...file, width, height, picture };
+    return { ...file, width, height, picture, interlaced: interlaced[i]! };
   });
   store.update({ slots: (await Promise.all(slots)) as [Slot, Slot] });
 }

@@ -2,11 +2,11 @@
 
 import { byId, icon, make } from "../dom";
 import { chooseFrom, keep } from "../intake/reel";
-import { inUse, openBoth, swap } from "../intake/slots";
+import { inUse, openBoth, swap, takeFields } from "../intake/slots";
 import { takeAll } from "../intake/take";
 import { ENDINGS, takeSaid } from "../intake/truth";
 import { ask } from "../session";
-import { store, type State } from "../store";
+import { store, type Slot, type State } from "../store";
 import { text } from "../text";
 
 const words = text.frames;
@@ -98,6 +98,10 @@ function render(state: Readonly<State>): void {
   if (held) document.getElementById(held)?.focus();
   const note = byId("slots-note");
   note.replaceChildren(explain(state, own));
+  const interlaced = slots.find((slot) => slot?.interlaced);
+  if (interlaced) {
+    note.append(" ", words.interlaced(interlaced.name), " ", fieldsButton("fields", interlaced));
+  }
   if (!own || inUse(state)) return;
   const discard = () => store.update({ slots: [null, null] });
   if (slots[0] && slots[1])
@@ -107,6 +111,10 @@ function render(state: Readonly<State>): void {
     );
   note.append(" ", button("discard", words.discard, discard));
 }
+
+/** Offers the two moments of an interlaced frame. */
+export const fieldsButton = (id: string, frame: Slot): HTMLElement =>
+  button(id, words.takeFields, () => takeFields(frame));
 
 function button(id: string, name: string, press: () => unknown): HTMLElement {
   const element = make("button", { type: "button", class: "quiet", id }, name);

@@ -6,11 +6,13 @@
 import { remove, select } from "../curves";
 import { byId, icon, make } from "../dom";
 import { count, fixed, number, percent } from "../format";
+import { inUse } from "../intake/slots";
 import { look } from "../looking";
 import { addAtCentre } from "../stage/tools";
 import { store, type State } from "../store";
 import { text } from "../text";
 import type { RegionReport, Shape } from "../worker/protocol";
+import { fieldsButton } from "./frames";
 
 const words = text.regions;
 
@@ -21,13 +23,14 @@ export function mountRegions(): void {
   });
   store.watch(({ shapes, catalogues, width }) => [shapes.length, catalogues, width], build);
   store.watch(
-    ({ shapes, selected, report, started, catalogues, frames }) => [
+    ({ shapes, selected, report, started, catalogues, frames, slots }) => [
       shapes,
       selected,
       report,
       started,
       catalogues,
       frames,
+      slots,
     ],
     refresh,
   );
@@ -110,7 +113,8 @@ function scale(label: number): HTMLElement {
   return make("div", { class: "scale" }, make("label", { for: id }, words.depth), slider, output);
 }
 
-function refresh({ shapes, selected, report, started, frames }: Readonly<State>): void {
+function refresh(state: Readonly<State>): void {
+  const { shapes, selected, report, started, frames, slots, interlaced } = state;
   for (const [label, element] of rows.entries()) {
     const region = started ? report?.regions.find((one) => one.label === label) : undefined;
     const chosen = label > 0 && selected === label - 1;
@@ -126,7 +130,12 @@ function refresh({ shapes, selected, report, started, frames }: Readonly<State>)
   }
   byId("regions-note").textContent = !frames ? "" : notes(shapes.length, started);
   const warnings = started ? (report?.warnings ?? []) : [];
-  byId("warnings").replaceChildren(...warnings.map((text) => make("li", {}, text)));
+  const lines = warnings.map((text) => make("li", {}, text));
+  const [first] = slots;
+  if (started && first && interlaced[0] && inUse(state)) {
+    lines.push(make("li", {}, fieldsButton("fields-instead", first)));
+  }
+  byId("warnings").replaceChildren(...lines);
 }
 
 function notes(curves: number, started: boolean): string {

@@ -21,6 +21,7 @@ import {
   setTruth,
   take,
   type Owned,
+  interlacedOf,
 } from "./owned";
 import { bitmap } from "./pictures";
 import { goOnFrom } from "./standing";
@@ -86,6 +87,7 @@ export class Engine {
         height: owned.first.height,
         frames,
         names: source.kind === "files" ? [source.first.name, source.second.name] : ["", ""],
+        interlaced: source.kind === "files" ? interlacedOf(owned) : [false, false],
         setup,
         restored: this.restored !== null,
         focalFrom: focalFrom(owned),

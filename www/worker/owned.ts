@@ -47,6 +47,11 @@ function lensOf({ first, second }: Owned): LensEntry | null {
   return JSON.parse(first.lens()) ?? JSON.parse(second.lens());
 }
 
+export const interlacedOf = ({ first, second }: Owned): [boolean, boolean] => [
+  first.interlaced,
+  second.interlaced,
+];
+
 export function focalFrom(owned: Owned): string {
   if (owned.scene) return text.focalOfSequence;
   const lens = lensOf(owned);

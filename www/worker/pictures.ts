@@ -1,7 +1,7 @@
 /** Frames and pictures of the core as the page shows them, and frames that are only looked at. */
 
 import { decode, displacement, Frame, type Picture } from "./core";
-import type { Displacement, FrameFile } from "./protocol";
+import type { Displacement, FrameFile, Preview } from "./protocol";
 
 /** Longest side of a frame sent to the page; more than a screen shows only costs memory. */
 const LONGEST_SIDE = 2048;
@@ -33,16 +33,31 @@ async function stretched(frame: Frame, longest: number): Promise<ImageBitmap> {
 }
 
 /** Decodes a file only to look at it. */
-export async function preview(
-  file: FrameFile,
-  longest: number,
-): Promise<{ width: number; height: number; picture: ImageBitmap }> {
+export async function preview(file: FrameFile, longest: number): Promise<Preview> {
   const frame = await decode(file);
   try {
-    return { width: frame.width, height: frame.height, picture: await stretched(frame, longest) };
+    const { width, height, interlaced } = frame;
+    return { width, height, interlaced, picture: await stretched(frame, longest) };
   } finally {
     frame.free();
   }
+}
+
+/** The two fields of an interlaced frame, even rows first, as PNG files. */
+export async function fieldsOf(file: FrameFile): Promise<Uint8Array<ArrayBuffer>[]> {
+  const frame = await decode(file);
+  try {
+    return await Promise.all(frame.fields().map(encoded));
+  } finally {
+    frame.free();
+  }
+}
+
+async function encoded(frame: Frame): Promise<Uint8Array<ArrayBuffer>> {
+  const canvas = new OffscreenCanvas(frame.width, frame.height);
+  canvas.getContext("2d")!.putImageData(frame.imageData(), 0, 0);
+  frame.free();
+  return new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer());
 }
 
 /** How far things move between two pictures; `null` when they differ in size or are too small to tell. */

@@ -109,6 +109,15 @@ export interface FrameFile {
   bytes: Uint8Array<ArrayBuffer>;
 }
 
+/** A frame that is only looked at. */
+export interface Preview {
+  width: number;
+  height: number;
+  picture: ImageBitmap;
+  /** Even and odd rows seem to show different moments. */
+  interlaced: boolean;
+}
+
 /** Where two frames come from; enough to open them again after the worker was restarted. */
 export type Source =
   | { kind: "scene"; name: string; width: number; height: number }
@@ -131,6 +140,8 @@ export interface Opened {
   height: number;
   frames: [ImageBitmap, ImageBitmap];
   names: [string, string];
+  /** Even and odd rows of a frame seem to show different moments. */
+  interlaced: [boolean, boolean];
   setup: Setup;
   /** Whether a result that came with it is shown. */
   restored: boolean;
@@ -245,10 +256,9 @@ export interface Service {
     failure: (failure: Failure) => void,
   ): Promise<void>;
   /** Decodes one file; throws a sentence when it is no image. The picture's longer side is `longest` at most. */
-  preview(
-    file: FrameFile,
-    longest: number,
-  ): Promise<{ width: number; height: number; picture: ImageBitmap }>;
+  preview(file: FrameFile, longest: number): Promise<Preview>;
+  /** The two fields of an interlaced frame, even rows first, as PNG files half as wide and high. */
+  fields(file: FrameFile): Promise<Uint8Array<ArrayBuffer>[]>;
   /** What these files have of a truth, as somebody `said` or not; `null` for one that has nothing, as a frame. */
   truthKinds(files: FrameFile[], said: boolean): Promise<(string | null)[]>;
   /** Takes what is true of the open pair; throws a sentence, and all stays, where it is not of that. */

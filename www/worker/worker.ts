@@ -11,7 +11,7 @@ import { text } from "../text/worker";
 import { catalogues, fileKind, load, panicMessage, viewsOf } from "./core";
 import { Engine } from "./engine";
 import { keepPass, takePasses } from "./passes";
-import { measure, preview } from "./pictures";
+import { fieldsOf, measure, preview } from "./pictures";
 import type {
   Failure,
   MeshData,
@@ -255,14 +255,9 @@ const service: Service = {
 
   setTruth: (files) => guard(() => engine.setTruth(files)),
 
-  views: (bytes) =>
-    guard(async () => {
-      const views = await viewsOf(bytes);
-      return Comlink.transfer(
-        views,
-        views.map(({ buffer }) => buffer),
-      );
-    }),
+  views: (bytes) => guard(async () => handedOver(await viewsOf(bytes))),
+
+  fields: (file) => guard(async () => handedOver(await fieldsOf(file))),
 
   displacement: (first, second) => guard(() => measure(first, second)),
 
@@ -369,5 +364,12 @@ const service: Service = {
 
   png: (request) => guard(() => moved(engine.png(request))),
 };
+
+/** Bytes that the page takes and the worker gives up. */
+const handedOver = (files: Uint8Array<ArrayBuffer>[]) =>
+  Comlink.transfer(
+    files,
+    files.map(({ buffer }) => buffer),
+  );
 
 Comlink.expose(service);

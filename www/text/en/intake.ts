@@ -13,6 +13,9 @@ export const frames = {
     `The ${which === 0 ? "first" : "second"} frame is still missing. Until then, ${stage ? `“${stage}”` : "the present pair"} stays open.`,
   inUse: (truth: string) =>
     `These are your frames. Draw or find a curve on each object that moves by itself. Then press Run. ${truth}`,
+  interlaced: (name: string) =>
+    `${name} seems to be interlaced: its even and odd rows show two moments.`,
+  takeFields: "Open its two fields",
   unused: (stage: string) => `These two frames are not in use. “${stage}” is still open.`,
   truthWanted:
     "If you have ground truth for them (motion, depth or labels), drop those files, too. Then scores and error maps are shown.",
@@ -45,6 +48,9 @@ export const files = {
   view: (name: string, which: 0 | 1) => `${name}, ${which === 0 ? "first" : "second"} view`,
   twoViews: (name: string) =>
     `The two views of ${name} are opened as a pair. If nothing moved between them, no curve is needed.`,
+  field: (name: string, which: 0 | 1) => `${name}, ${which === 0 ? "even" : "odd"} rows`,
+  twoFields: (name: string) =>
+    `The two fields of ${name} are opened as a pair, each half as wide and high.`,
   fromFilm: (film: string, first: string, second: string) =>
     `From ${film}: ${first} and ${second}.`,
   areOpen: (first: string, second: string) => `${first} and ${second} are open.`,
