@@ -44,12 +44,15 @@ export function mountSequence(): void {
   );
   store.watch(({ opening }) => [opening], choosePresent);
   store.watch(
-    ({ title, lesson, width, height, source }) => [title, lesson, width, height, source],
-    ({ title, lesson, width, height, source }) => {
+    ({ title, lesson, width, height, source, focalFinding, focalFrom }) => [
+      ...[title, lesson, width, height, source, focalFinding, focalFrom],
+    ],
+    ({ title, lesson, width, height, source, focalFinding, focalFrom }) => {
       byId("sequence-title").textContent = title;
       const note = source?.kind === "files" && source.note ? `${source.note} ` : "";
       byId("lesson").textContent =
-        lesson || (width > 0 ? note + text.sequence.size(width, height) : "");
+        lesson ||
+        (width > 0 ? note + text.sequence.size(width, height, focalFinding ?? focalFrom) : "");
     },
   );
   const replay = byId<HTMLButtonElement>("replay");

@@ -87,8 +87,7 @@ export const options = {
 
 export const sequence = {
   own: "Your own frames",
-  size: (width: number, height: number) =>
-    `${width} × ${height} pixels. Set the focal length of the camera if you know it, or press Find f.`,
+  size: (width: number, height: number, focal: string) => `${width} × ${height} pixels. ${focal}`,
 };
 
 export const kept = {
