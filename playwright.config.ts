@@ -36,7 +36,8 @@ export default defineConfig({
     bypassCSP: true,
     // Requests that a service worker makes cannot be watched; offline.spec.ts lets it in.
     serviceWorkers: "block",
-    trace: "retain-on-failure",
+    // Of each test it would make them slower by a third.
+    trace: "on-first-retry",
   },
   webServer: {
     command: `node scripts/serve.js --port ${port}`,
