@@ -84,11 +84,12 @@ function fit(): void {
 }
 
 /** How it is looked at. The solver's part of a setting is what the pair was opened with. */
-function seen({ view, viewParams, scales, pace }: Partial<Setting>): Partial<State> {
+function seen({ view, viewParams, ranges, scales, pace }: Partial<Setting>): Partial<State> {
   return {
     ...(view && { view }),
     // One that was kept by an earlier page knows of fewer.
     ...(viewParams && { viewParams: { ...store.state.viewParams, ...viewParams } }),
+    ...(ranges && { ranges: { ...FREE, ...ranges } }),
     ...(scales && { scales }),
     ...(pace !== undefined && { pace }),
   };

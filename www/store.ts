@@ -91,8 +91,10 @@ export interface Split {
 
 /** Ranges of colours that are held whatever is found; `null` where the core chooses. */
 export interface Ranges {
-  /** Least and greatest 1/Z. */
+  /** Least and greatest 1/Z, in units of the regions' means, */
   span: [number, number] | null;
+  /** and in the truth's unit, for depth that is compared with it. */
+  trueSpan: [number, number] | null;
   /** Pixels per frame at full colour. */
   speed: number | null;
   /** The end of the palette of a residual or of errors, by kind and in its unit. */
@@ -217,7 +219,7 @@ export class Store {
 }
 
 /** Nothing is held. */
-export const FREE: Ranges = { span: null, speed: null, most: {} };
+export const FREE: Ranges = { span: null, trueSpan: null, speed: null, most: {} };
 
 export const store = new Store({
   catalogues: null,

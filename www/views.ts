@@ -232,13 +232,12 @@ export function available({ catalogues, truth }: Readonly<State>): View[] {
   });
 }
 
-/** Parameters that the core's views take. */
-export function wantedParams({
-  viewParams,
-  scales,
-  width,
-  ranges,
-}: Readonly<State>): Record<string, unknown> {
+/** Parameters that the core's views take, for pictures that are compared with the truth or not. */
+export function wantedParams(
+  state: Readonly<State>,
+  compared = comparing(state),
+): Record<string, unknown> {
+  const { viewParams, scales, width, ranges } = state;
   const { palette, glasses, baseline, swap, presentation } = viewParams;
   const convergence = viewParams.converge ? null : viewParams.convergence;
   const layout = ["anaglyph", "wiggle"].includes(presentation) ? "parallel" : presentation;
@@ -246,8 +245,8 @@ export function wantedParams({
   const magnify = width > 0 && width <= FINE_WIDTH ? 2 : 1;
   // The page draws a legend of its own, with numbers.
   const own = { scales, palette, glasses, baseline, convergence, swap, layout, magnify };
-  const { span, speed } = ranges;
-  return { ...own, legend: false, span, speed };
+  const { span, trueSpan, speed } = ranges;
+  return { ...own, legend: false, span: compared ? trueSpan : span, speed };
 }
 
 /** What the worker should send for what is shown. */

@@ -46,13 +46,15 @@ export const nameOf = ({ of, kind }: Shot) => (of === "found" ? kind : `${of}-${
 /** One picture as PNG; `null` where that failed, which has been said. */
 export function pictureOf({ of, kind }: Shot): Promise<Bytes | null> {
   const { state } = store;
-  const params = { ...wantedParams(state), magnify: 1, legend: true };
-  return askShown(null, (service) => service.png({ of, kind, params, compared: of !== "found" }));
+  const compared = of !== "found";
+  const most = state.ranges.most[kind] ?? null;
+  const params = { ...wantedParams(state, compared), most, magnify: 1, legend: true };
+  return askShown(null, (service) => service.png({ of, kind, params, compared }));
 }
 
 /** One of the core's files. */
 export function fileOf(name: string): Promise<Bytes | null> {
-  return askShown(null, (service) => service.file(name, wantedParams(store.state)));
+  return askShown(null, (service) => service.file(name, wantedParams(store.state, false)));
 }
 
 /** Why there is no result to take away at present; empty where there is one. */

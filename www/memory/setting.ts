@@ -4,10 +4,10 @@ import type { State } from "../store";
 
 export type Setting = Pick<
   State,
-  "shapes" | "camera" | "options" | "view" | "viewParams" | "scales" | "pace"
+  "shapes" | "camera" | "options" | "view" | "viewParams" | "ranges" | "scales" | "pace"
 >;
 
 export function settingOf(state: Readonly<State>): Setting {
-  const { shapes, camera, options, view, viewParams, scales, pace } = state;
-  return { shapes, camera, options, view, viewParams, scales, pace };
+  const { shapes, camera, options, view, viewParams, ranges, scales, pace } = state;
+  return { shapes, camera, options, view, viewParams, ranges, scales, pace };
 }

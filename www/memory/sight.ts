@@ -2,7 +2,7 @@
  * How a pair is looked at beyond the view, as parts of an address: what Back and Forward step through, and a link carries.
  *
  *     s=found.depth~truth.depth~0.42    both sides of the divider, and where that is
- *     r=span:0.4,1.2~error-flow:2       ranges of colours that are held
+ *     r=span:0.4,1.2~error-flow:2       ranges of colours that are held, of depth as 1/Z; in the truth's unit `true`
  *     m=4,0.25,0.6                      magnified so many times about a point, in shares of the frame
  *     l=viridis                         the palette
  *
@@ -29,14 +29,17 @@ const MOST_ZOOM = 1000;
 export const KEYS = ["s", "r", "m", "l"];
 
 const short = (value: number) => String(Number(value.toPrecision(4)));
+/** So that what was typed as Z, and is kept as 1/Z, comes back as it was typed. */
+const exact = (value: number) => String(Number(value.toPrecision(7)));
 
 export const USUAL_SIGHT: Sight = { split: null, ranges: FREE, zoom: FITTING, palette: USUAL };
 
 /** The parts of an address, in their order. */
 export function partsOf({ split, ranges, zoom, viewParams }: Readonly<State>): string[] {
-  const { span, speed, most } = ranges;
+  const { span, trueSpan, speed, most } = ranges;
   const held = [
-    span && `span:${span.map(short).join(",")}`,
+    span && `span:${span.map(exact).join(",")}`,
+    trueSpan && `true:${trueSpan.map(exact).join(",")}`,
     speed !== null && `speed:${short(speed)}`,
     ...Object.entries(most).map(([kind, value]) => `${kind}:${short(value)}`),
   ].filter(Boolean);
@@ -99,7 +102,9 @@ function rangesOf(text: string): Ranges | null {
     const [key = "", value = ""] = part.split(":");
     const [one, other] = numbersOf(value) ?? [];
     if (one === undefined || one < 0) return null;
-    if (key === "span" && other !== undefined && other > one + 1e-9) ranges.span = [one, other];
+    const span = other !== undefined && other > one + 1e-9;
+    if (key === "span" && span) ranges.span = [one, other];
+    else if (key === "true" && span) ranges.trueSpan = [one, other];
     else if (key === "speed" && one >= 1e-6) ranges.speed = one;
     else if (/^(residual|error-(flow|depth))$/.test(key) && one >= 1e-6) ranges.most[key] = one;
     else return null;

@@ -6,6 +6,7 @@ import { store, type State } from "../store";
 import { text } from "../text";
 import { asks, awaited, comparing } from "../views";
 import type { Legend } from "../worker/protocol";
+import { field, fill, holder, rangeOf, typedIn, type Range } from "./range";
 
 const words = text.legend;
 
@@ -24,24 +25,54 @@ export function mountLegend(): void {
   );
 }
 
+/** A legend that stands there, and what it stands for but for its numbers. */
+interface Shown {
+  key: string;
+  figure: HTMLElement;
+  tell: (legend: Legend) => void;
+}
+
+let shown: Shown[] = [];
+
 function show(state: Readonly<State>): void {
-  const place = byId("legend");
   const wanted = asks(state);
+  const compared = comparing(state);
   // Both halves of a divided stage may have the same.
   const seen = new Set<string>();
   const drawn = awaited(state) ? [] : state.legends.slice(0, wanted.length);
-  const elements = drawn.flatMap((legend, i) => {
-    const text = JSON.stringify(legend);
-    if (!legend || seen.has(text)) return [];
-    seen.add(text);
-    return [element(legend, wanted[i]![1], comparing(state))];
+  const next = drawn.flatMap((legend, i) => {
+    const same = JSON.stringify(legend);
+    if (!legend || seen.has(same)) return [];
+    seen.add(same);
+    const [, kind] = wanted[i]!;
+    const range = rangeOf(legend, kind, compared);
+    const { form, quantity, unit, names, colours } = legend;
+    const parts = form === "keys" ? [names, colours] : [];
+    const key = JSON.stringify([
+      ...[i, kind, form, quantity, unit, compared, parts],
+      range?.read(state.ranges)?.length,
+    ]);
+    // Whoever is typing into one types on.
+    const there = shown.find((one) => one.key === key);
+    there?.tell(legend);
+    return [there ?? { key, ...figureOf(legend, range, `${kind}-${i}`, compared) }];
   });
+  const alike = next.length === shown.length && next.every((one, i) => one === shown[i]);
+  shown = next;
+  if (alike) return;
   const held = document.activeElement?.id ?? "";
-  place.replaceChildren(...elements);
-  if (held.startsWith("hold-")) document.getElementById(held)?.focus();
+  byId("legend").replaceChildren(...next.map(({ figure }) => figure));
+  if (!held.startsWith("hold-")) return;
+  // Two that follow by themselves may become one that is held.
+  (document.getElementById(held) ?? byId("legend").querySelector("button"))?.focus();
 }
 
-function element(legend: Legend, kind: string, compared: boolean): HTMLElement {
+function figureOf(
+  legend: Legend,
+  range: Range | null,
+  id: string,
+  compared: boolean,
+): Omit<Shown, "key"> {
   const { form, quantity, unit } = legend;
   const depth = quantity === "Depth";
   const title =
@@ -55,91 +86,91 @@ function element(legend: Legend, kind: string, compared: boolean): HTMLElement {
   const name = make("figcaption", {}, quantity);
   const small = depth ? (compared ? words.truthUnit : words.meanUnit) : unit;
   if (small) name.append(make("small", {}, small));
-  const figure = make("figure", { class: `scale-${form}`, title }, name);
-  switch (form) {
-    case "ramp":
-      figure.append(ramp(legend));
-      break;
-    case "wheel":
-      figure.append(wheel(legend));
-      break;
-    case "arrow":
-      figure.append(make("p", {}, words.longest(number(legend.marks[0]?.value ?? 0, 2))));
-      break;
-    case "keys":
-      figure.append(keys(legend));
-      break;
-  }
-  // Beside the truth the range is the truth's.
-  if (legend.hold && (legend.hold.most !== null || !compared)) figure.append(holder(legend, kind));
-  return figure;
+  const fields =
+    range && range.read(store.state.ranges)
+      ? range.names.map((_, i) => field(range, i, `end-${id}-${i}`))
+      : [];
+  const { body, tell } = BODIES[form](legend, fields);
+  const figure = make(
+    "figure",
+    { class: `scale-${form}${fields.length > 0 ? " held" : ""}`, title },
+    ...[name, ...body],
+  );
+  if (range) figure.append(holder(range, `hold-${id}`));
+  return {
+    figure,
+    tell(legend) {
+      tell(legend);
+      for (const [i, input] of fields.entries()) if (!typedIn(input)) fill(input, range!, i);
+    },
+  };
 }
 
-/** Holds the range as it is, so that passes can be compared, or lets it follow what is found. */
-function holder({ hold }: Legend, kind: string): HTMLElement {
-  const { ranges } = store.state;
-  const { span, speed, most } = hold!;
-  const held = span
-    ? ranges.span !== null
-    : speed
-      ? ranges.speed !== null
-      : ranges.most[kind] !== undefined;
-  const button = make(
-    "button",
-    { type: "button", id: `hold-${kind}`, "aria-pressed": String(held) },
-    words.hold,
-    make("span", { class: "visually-hidden" }, ` ${words.holdWhat}`),
-  );
-  button.title = held ? words.isHeld : words.isFree;
-  button.addEventListener("click", () => {
-    const { [kind]: _, ...others } = ranges.most;
-    store.update({
-      ranges: span
-        ? { ...ranges, span: held ? null : span }
-        : speed
-          ? { ...ranges, speed: held ? null : speed }
-          : { ...ranges, most: held || most === null ? others : { ...others, [kind]: most } },
-    });
-  });
-  return button;
+/** What a legend is made of, with the fields of its ends, and what puts other numbers into it. */
+interface Body {
+  body: HTMLElement[];
+  tell: (legend: Legend) => void;
 }
+
+const BODIES: Record<Legend["form"], (legend: Legend, fields: HTMLInputElement[]) => Body> = {
+  ramp,
+  wheel,
+  arrow,
+  keys,
+};
 
 /** The end of the ramp is up, or at the right where it lies. */
-function ramp({ colours, marks }: Legend): HTMLElement {
+function ramp(legend: Legend, fields: HTMLInputElement[]): Body {
   const bar = make("div", { class: "ramp", "aria-hidden": "true" });
-  bar.style.setProperty("--colours", colours.join(", "));
   const list = make("ol", { class: "marks" });
-  const values = scale(marks.map(({ value }) => value));
-  for (const [i, { at }] of marks.entries()) {
-    const mark = make("li", {}, values[i]!);
-    mark.style.setProperty("--at", String(at));
-    list.append(mark);
-  }
-  return make("div", { class: "ramp-body" }, bar, list);
+  const tell = ({ colours, marks }: Legend) => {
+    bar.style.setProperty("--colours", colours.join(", "));
+    const values = scale(marks.map(({ value }) => value));
+    list.replaceChildren(
+      ...marks.map(({ at }, i) => {
+        const mark = make("li", {}, values[i]!);
+        mark.style.setProperty("--at", String(at));
+        return mark;
+      }),
+    );
+  };
+  tell(legend);
+  const body = make("div", { class: "ramp-body" }, bar, list);
+  const [end, start] = fields;
+  end?.classList.add("end");
+  start?.classList.add("start");
+  return { body: [end, body, start].filter((one) => one !== undefined), tell };
 }
 
 /** From right clockwise; white is rest. */
-function wheel({ colours, marks }: Legend): HTMLElement {
+function wheel(legend: Legend, [rim]: HTMLInputElement[]): Body {
   const disc = make("div", { class: "wheel", "aria-hidden": "true" });
-  disc.style.setProperty("--colours", [...colours, colours[0] ?? "white"].join(", "));
-  const full = marks.at(-1)?.value ?? 0;
-  return make(
-    "div",
-    { class: "wheel-body" },
-    disc,
-    make("p", { title: words.rimTitle }, words.rim(number(full, 2))),
-  );
+  const told = make("p", { title: words.rimTitle });
+  const tell = ({ colours, marks }: Legend) => {
+    disc.style.setProperty("--colours", [...colours, colours[0] ?? "white"].join(", "));
+    if (!rim) told.textContent = words.rim(number(marks.at(-1)?.value ?? 0, 2));
+  };
+  tell(legend);
+  if (rim) told.append(words.rim(""), rim);
+  return { body: [make("div", { class: "wheel-body" }, disc, told)], tell };
 }
 
-function keys({ colours, names }: Legend): HTMLElement {
-  return make(
-    "ul",
-    {},
-    ...colours.map((colour, label) => {
-      const chip = make("span", { class: "chip", "aria-hidden": "true" });
-      chip.style.background = colour;
-      const region = label === 0 ? words.background : words.curve(label);
-      return make("li", {}, chip, names[label] ?? region);
-    }),
-  );
+function arrow(legend: Legend, [end]: HTMLInputElement[]): Body {
+  const told = make("p", { class: "longest" });
+  const tell = ({ marks }: Legend) => {
+    if (!end) told.textContent = words.longest(number(marks[0]?.value ?? 0, 2));
+  };
+  tell(legend);
+  if (end) told.append(words.longest(""), end);
+  return { body: [told], tell };
+}
+
+function keys({ colours, names }: Legend): Body {
+  const list = colours.map((colour, label) => {
+    const chip = make("span", { class: "chip", "aria-hidden": "true" });
+    chip.style.background = colour;
+    const region = label === 0 ? words.background : words.curve(label);
+    return make("li", {}, chip, names[label] ?? region);
+  });
+  return { body: [make("ul", {}, ...list)], tell: () => {} };
 }

@@ -148,7 +148,23 @@ export const legend = {
   hold: "Hold",
   holdWhat: "the range",
   isHeld: "This range is kept for all passes. Press to fit it to each pass again.",
-  isFree: "Keep this range of colours for all passes",
+  isFree: "Keep this range of colours for all passes, or type another",
+  /** The ends of a range that is held, as names of fields. */
+  nearest: "Nearest depth",
+  farthest: "Farthest depth",
+  fullColour: (quantity: string) => `${quantity} at the end of the colours`,
+  longestArrow: "Motion of the longest arrow",
+  howToType: "Enter applies it, Escape leaves it as it was.",
+  rangeIs: (ends: string[], unit: string) =>
+    `The colours go ${ends.length > 1 ? `from ${ends.join(" to ")}` : `up to ${ends[0]}`} ${unit}.`,
+  empty: (name: string) => `${name}: no number was typed. The range stays as it was.`,
+  noNumber: (name: string) => `${name}: this is not a number. The range stays as it was.`,
+  outOfRange: (name: string, least: string, most: string) =>
+    `${name}: the number must be between ${least} and ${most}. The range stays as it was.`,
+  notLess: (name: string, typed: string, other: string, end: string) =>
+    `${name}: ${typed} is not less than the ${other.toLowerCase()}, ${end}. The range stays as it was.`,
+  notMore: (name: string, typed: string, other: string, end: string) =>
+    `${name}: ${typed} is not more than the ${other.toLowerCase()}, ${end}. The range stays as it was.`,
   rim: (value: string) => `rim ${value}`,
   rimTitle: "Length of the motion at the rim of the wheel, where colours are strongest",
   background: "Backgr.",
