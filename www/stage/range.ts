@@ -7,7 +7,6 @@
  */
 
 import { announce, make } from "../dom";
-import { number } from "../format";
 import { store, type Ranges } from "../store";
 import { text } from "../text";
 import type { Legend } from "../worker/protocol";
@@ -104,11 +103,14 @@ export function field(range: Range, i: number, id: string): HTMLInputElement {
 
 /** Writes the end that is held into its field. */
 export function fill(input: HTMLInputElement, range: Range, i: number): void {
-  const value = range.read(store.state.ranges)?.[i];
+  const ends = range.read(store.state.ranges);
+  const value = ends?.[i];
   if (value === undefined || !Number.isFinite(value)) return;
   input.defaultValue = plain(value);
   input.value = input.defaultValue;
-  input.step = String(10 ** Math.floor(Math.log10(value) - 1));
+  // The arrow keys take a step that is seen.
+  const width = ends!.length > 1 ? ends![1]! - ends![0]! : value;
+  input.step = String(10 ** Math.floor(Math.log10(width) - 1));
 }
 
 /** Whether somebody is at it. */
@@ -154,10 +156,10 @@ function wrongWith(
     return words.outOfRange(name, plain(LEAST), String(MOST));
   }
   if (i === 0 && ends.length > 1 && typed * APART > ends[1]!) {
-    return words.notLess(name, number(typed), names[1]!, number(ends[1]!));
+    return words.notLess(name, plain(typed), names[1]!, plain(ends[1]!));
   }
   if (i === 1 && typed < ends[0]! * APART) {
-    return words.notMore(name, number(typed), names[0]!, number(ends[0]!));
+    return words.notMore(name, plain(typed), names[0]!, plain(ends[0]!));
   }
   return null;
 }
