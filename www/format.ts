@@ -36,9 +36,12 @@ export function percent(share: number, decimals = 1): string {
   return `${fixed(100 * share, decimals)}\u202f%`;
 }
 
+const GROUPED = new Intl.NumberFormat("en");
+const COMPACT = new Intl.NumberFormat("en", { notation: "compact", maximumSignificantDigits: 3 });
+
 /** Whole numbers in groups of three. */
 export function count(value: number): string {
-  return value.toLocaleString("en").replaceAll(",", "\u202f");
+  return GROUPED.format(value).replaceAll(",", "\u202f");
 }
 
 /** Seconds, coarse enough not to flicker. */
@@ -48,5 +51,5 @@ export function seconds(value: number): string {
 
 /** For axes: 1.5M. */
 export function compact(value: number): string {
-  return minus(value.toLocaleString("en", { notation: "compact", maximumSignificantDigits: 3 }));
+  return minus(COMPACT.format(value));
 }

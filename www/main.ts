@@ -8,7 +8,7 @@
 import { byId } from "./dom";
 import { mountCamera } from "./panels/camera";
 import { mountExport } from "./export/export";
-import { mountEnergy, rebuild as rebuildEnergy } from "./panels/energy";
+import { mountEnergy, recolour } from "./panels/energy";
 import { mountFrames } from "./panels/frames";
 import { mountMessage } from "./panels/message";
 import { mountOptions } from "./panels/options";
@@ -66,7 +66,7 @@ mountOptions();
 mountExport();
 mountRelief();
 mountGlasses();
-mountTheme(rebuildEnergy);
+mountTheme(recolour);
 mountHeld();
 mountHistory();
 mountRemember();

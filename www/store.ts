@@ -201,6 +201,22 @@ export class Store {
     for (const react of this.reactions) react();
   }
 
+  /**
+   * The same, but in a task of its own after the change, with what the state is by then: for panels beside what is looked
+   * at, so that all that a progress changes is no single long task.
+   */
+  watchAfter(select: (state: State) => readonly unknown[], react: (state: State) => void): void {
+    let waiting = false;
+    this.watch(select, () => {
+      if (waiting) return;
+      waiting = true;
+      setTimeout(() => {
+        waiting = false;
+        react(this.current);
+      });
+    });
+  }
+
   /** Calls `react` now, and again whenever one of the selected values is another than before; gives what ends that. */
   watch(select: (state: State) => readonly unknown[], react: (state: State) => void): () => void {
     let last: readonly unknown[] | null = null;

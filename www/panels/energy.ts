@@ -19,21 +19,22 @@ const HEIGHT = 160;
 let plot: uPlot | null = null;
 
 export function mountEnergy(): void {
-  byId("energy-log").addEventListener("change", rebuild);
-  store.watch(
+  byId("energy-log").addEventListener("change", () => rebuild());
+  store.watchAfter(
     ({ report, started, running }) => [report, started, running],
     (state) => {
       const shown = state.started && (state.report?.history.length ?? 0) > 0;
       byId("energy-panel").hidden = !shown;
-      if (!shown) {
-        plot?.destroy();
-        plot = null;
-        return;
-      }
+      if (!shown) return;
       if (plot) plot.setData(dataOf(state));
       else rebuild();
       byId("energy-text").textContent = inWords(state);
     },
+  );
+  // The first plot takes the browser long: made while nobody waits, it does not hold up the first pass.
+  store.watch(
+    ({ frames }) => [frames !== null],
+    ({ frames }) => frames && whenIdle(prepare),
   );
   new ResizeObserver(() => {
     const width = byId("energy-plot").clientWidth;
@@ -41,12 +42,25 @@ export function mountEnergy(): void {
   }).observe(byId("energy-plot"));
 }
 
-/** A new plot: with another scale, or in other colours. */
-export function rebuild(): void {
+/** With something to draw: fonts take time as well. */
+function prepare(): void {
+  if (!plot) rebuild([SAMPLE, SAMPLE]);
+}
+
+const SAMPLE = [1, 2, 3];
+
+const whenIdle = (work: () => void) =>
+  "requestIdleCallback" in window ? requestIdleCallback(work) : setTimeout(work, 500);
+
+/** The plot in other colours. */
+export function recolour(): void {
+  if (plot) rebuild();
+}
+
+/** A new plot. */
+function rebuild(data = dataOf(store.state)): void {
   const place = byId("energy-plot");
   plot?.destroy();
-  plot = null;
-  if (byId("energy-panel").hidden) return;
   const logarithmic = byId<HTMLInputElement>("energy-log").checked;
   const soft = themeColour("--ink-soft");
   const grid = { stroke: themeColour("--line"), width: 1 };
@@ -77,7 +91,7 @@ export function rebuild(): void {
       ],
       hooks: { draw: [markBreaks] },
     },
-    dataOf(store.state),
+    data,
     place,
   );
 }

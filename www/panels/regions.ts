@@ -22,7 +22,7 @@ export function mountRegions(): void {
     addAtCentre();
   });
   store.watch(({ shapes, catalogues, width }) => [shapes.length, catalogues, width], build);
-  store.watch(
+  store.watchAfter(
     ({ shapes, selected, report, started, catalogues, frames, slots }) => [
       shapes,
       selected,

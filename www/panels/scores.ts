@@ -22,7 +22,7 @@ interface Row {
 }
 
 export function mountScores(): void {
-  store.watch(({ scores, started, shapes }) => [scores, started, shapes.length], refresh);
+  store.watchAfter(({ scores, started, shapes }) => [scores, started, shapes.length], refresh);
 }
 
 function refresh({ scores, started }: Readonly<State>): void {
