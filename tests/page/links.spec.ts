@@ -129,7 +129,7 @@ test("two views, a held range, a palette and a zoom are steps, and go along in a
   await page.getByRole("slider", { name: /Divider/ }).fill("30");
   await at("s=truth.flow~found.depth~0.3");
   await page.getByLabel("Right of the divider").selectOption("Error: motion");
-  await page.locator("#legend").getByRole("button", { name: "Hold" }).first().click();
+  await page.locator("#legend").getByRole("button", { name: "Hold" }).last().click();
   await at("r=error-flow:");
   const before = await seen(page);
   await page.getByRole("button", { name: "Zoom in" }).click();

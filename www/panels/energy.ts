@@ -36,10 +36,13 @@ export function mountEnergy(): void {
     ({ frames }) => [frames !== null],
     ({ frames }) => frames && whenIdle(prepare),
   );
-  new ResizeObserver(() => {
-    const width = byId("energy-plot").clientWidth;
-    if (plot && width > 0 && plot.width !== width) plot.setSize({ width, height: HEIGHT });
-  }).observe(byId("energy-plot"));
+  // Not in the frame in which all else takes its new size.
+  new ResizeObserver(() => setTimeout(fit)).observe(byId("energy-plot"));
+}
+
+function fit(): void {
+  const width = byId("energy-plot").clientWidth;
+  if (plot && width > 0 && plot.width !== width) plot.setSize({ width, height: HEIGHT });
 }
 
 /** With something to draw: fonts take time as well. */

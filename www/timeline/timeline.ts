@@ -131,8 +131,8 @@ export function mountTimeline(): void {
     const line = Number((event.target as HTMLInputElement).value);
     void goTo({ line, at: placeOf(store.state).at });
   });
-  store.watch(({ timeline }) => [timeline], drawLines);
-  store.watch(
+  store.watchAfter(({ timeline }) => [timeline], drawLines);
+  store.watchAfter(
     ({ timeline, visit, started, running, busy, report }) => [
       ...[timeline, visit, started, running, busy, report],
     ],
