@@ -11,7 +11,7 @@ import { store, type State } from "../store";
 import { later } from "../text/later";
 import { placeOf } from "../timeline/going";
 import { endOf, standingAt, type Line, type Timeline } from "../timeline/line";
-import { stretchesOf } from "../timeline/chart";
+import { heightsOf, within } from "../timeline/heights";
 import type { Pane } from "../stage/place";
 
 const words = later.solveFilm;
@@ -137,25 +137,23 @@ function drawLine(
   const { first } = timeline;
   const x = (at: number) => left + ((right - left) * (at - first)) / line.energies.length;
   const colour = (of: number) => (of <= at ? "#4fd0e2" : "#55646a");
-  for (const { points } of stretchesOf(timeline, line)) {
-    const energies = points.map(({ energy }) => energy).filter(Number.isFinite);
-    const [least, most] = [Math.min(...energies), Math.max(...energies)];
-    const y = (energy: number) =>
-      top + height * (most > least ? 0.8 - (0.6 * (energy - least)) / (most - least) : 0.5);
-    for (const [i, point] of points.entries()) {
-      if (!Number.isFinite(point.energy)) continue;
-      const last = points[i - 1];
-      const spot = [x(point.at), y(point.energy)] as const;
-      context.strokeStyle = context.fillStyle = colour(point.at);
-      context.lineWidth = 0.05 * height;
-      context.beginPath();
-      if (last && Number.isFinite(last.energy)) context.moveTo(x(last.at), y(last.energy));
-      context.lineTo(...spot);
-      context.stroke();
-      context.beginPath();
-      context.arc(...spot, (point.at === at ? 0.14 : 0.05) * height, 0, 2 * Math.PI);
-      context.fill();
-    }
+  const points = heightsOf(timeline, line);
+  const share = within(points);
+  const spots = points.map((point) => {
+    return [x(point.at), top + height * (0.8 - 0.6 * share(point))] as const;
+  });
+  for (const [i, { at: pass, compares }] of points.entries()) {
+    const last = spots[i - 1];
+    context.strokeStyle = context.fillStyle = colour(pass);
+    // Thin where the energy became another sum.
+    context.lineWidth = (compares ? 0.05 : 0.02) * height;
+    context.beginPath();
+    if (last) context.moveTo(...last);
+    context.lineTo(...spots[i]!);
+    context.stroke();
+    context.beginPath();
+    context.arc(...spots[i]!, (pass === at ? 0.14 : 0.05) * height, 0, 2 * Math.PI);
+    context.fill();
   }
   context.fillStyle = "#a4b0b2";
   context.textAlign = "right";

@@ -1,92 +1,57 @@
 /**
- * The energy along the timeline.
- *
- * Energies compare between two breaks only: each stretch between two has a height of its own, full at its greatest and low
- * at its least energy. Two lines that have a stretch from the same break on share its height.
+ * The energy along the timeline: one line that falls as the energy falls (`heights.ts`), full where two energies compare,
+ * dashed where the energy became another sum, with a rule where a scale begins.
  */
 
-import { lengthOf, type Line, type Timeline } from "./line";
+import { heightsOf, within, type Point } from "./heights";
+import { lengthOf, type Timeline } from "./line";
 import { text } from "../text";
 import { scaleName } from "./sentences";
 
 const SPACE = "http://www.w3.org/2000/svg";
 /** Units across and down; the drawing is stretched to its place. */
 const [WIDE, HIGH] = [1000, 100];
-/** Of the height, what a stretch takes. */
-const [TOP, BOTTOM] = [14, 84];
+/** Of the height, what the line takes. */
+const [TOP, BOTTOM] = [24, 84];
 /** With more passes dots would run into each other. */
 const MOST_DOTS = 90;
-
-interface Point {
-  at: number;
-  energy: number;
-}
-
-/** Passes whose energies compare. */
-interface Stretch {
-  start: number;
-  points: Point[];
-}
-
-export function stretchesOf({ first }: Timeline, line: Line): Stretch[] {
-  const stretches: Stretch[] = [];
-  for (const [i, energy] of line.energies.entries()) {
-    const at = first + 1 + i;
-    const begins = i === 0 || line.breaks.includes(at - 1);
-    if (begins) stretches.push({ start: at - 1, points: [] });
-    stretches.at(-1)!.points.push({ at, energy });
-  }
-  return stretches;
-}
 
 /** Draws the lines. */
 export function drawChart(svg: SVGSVGElement, timeline: Timeline, current: number): void {
   const { first, lines } = timeline;
   const length = Math.max(1, lengthOf(timeline) - first);
-  const across = (at: number) => (WIDE * (at - first)) / length;
-  const all = lines.map((line) => stretchesOf(timeline, line));
-  const ranges = new Map<number, [number, number]>();
-  for (const { start, points } of all.flat()) {
-    const energies = points.map(({ energy }) => energy).filter(Number.isFinite);
-    const [least, most] = ranges.get(start) ?? [Infinity, -Infinity];
-    ranges.set(start, [Math.min(least, ...energies), Math.max(most, ...energies)]);
-  }
-  const down = (start: number, energy: number) => {
-    const [least, most] = ranges.get(start)!;
-    const share = most > least ? (energy - least) / (most - least) : 0.5;
-    return BOTTOM - (BOTTOM - TOP) * share;
-  };
+  const all = lines.map((line) => heightsOf(timeline, line));
+  const share = within(all.flat());
+  const across = ({ at }: Point) => (WIDE * (at - first)) / length;
+  const spot = (point: Point) => `${across(point)} ${BOTTOM - (BOTTOM - TOP) * share(point)}`;
+  const step = (points: Point[]) => (point: Point, i: number) =>
+    i > 0 ? `M${spot(points[i - 1]!)}L${spot(point)}` : "";
   svg.setAttribute("viewBox", `0 0 ${WIDE} ${HIGH}`);
   svg.setAttribute("preserveAspectRatio", "none");
-  const breaks = lines[current]?.breaks.filter((at) => at > first && at < lengthOf(timeline)) ?? [];
-  const spot = (start: number, { at, energy }: Point) => `${across(at)} ${down(start, energy)}`;
-  const parts = partsOf(timeline, current).map(({ line, from, to, bright }) => {
-    const own = all[line]!.map(({ start, points }) => ({
-      start,
-      points: points.filter(({ at }) => at >= from && at <= to),
-    })).filter(({ points }) => points.length > 0);
-    const drawn = own.map(({ start, points }) => points.map((point) => spot(start, point)));
-    const areas = own.map(({ points }, i) => {
-      const [left, right] = [points[0]!, points.at(-1)!].map(({ at }) => across(at));
-      return `M${left} ${HIGH}L${drawn[i]!.join("L")}L${right} ${HIGH}Z`;
-    });
-    const dots = drawn.flat().map((place) => `M${place}h0`);
+  const parts = partsOf(timeline, current).flatMap(({ line, from, to, bright }) => {
+    const own = all[line]!.filter(({ at }) => at >= from && at <= to);
+    if (own.length === 0) return [];
     const tone = `line-${line}${bright ? " current" : ""}`;
+    const steps = own.map(step(own));
+    const of = (compares: boolean) =>
+      steps.filter((_, i) => own[i]!.compares === compares).join("");
+    const [left, right] = [across(own[0]!), across(own.at(-1)!)];
+    const dots = own.length <= MOST_DOTS ? own : [];
     return [
-      path(`area ${tone}`, areas.join("")),
-      path(`curve ${tone}`, drawn.map((places) => `M${places.join("L")}`).join("")),
-      path(`dots ${tone}`, dots.length <= MOST_DOTS ? dots.join("") : ""),
+      path(`area ${tone}`, `M${left} ${HIGH}L${own.map(spot).join("L")}L${right} ${HIGH}Z`),
+      path(`join ${tone}`, of(false)),
+      path(`curve ${tone}`, of(true)),
+      path(`dots ${tone}`, dots.map((point) => `M${spot(point)}h0`).join("")),
     ];
   });
-  const [parent, branch] = all.map((stretches) =>
-    stretches.flatMap(({ start, points }) => points.map((point) => spot(start, point))),
-  );
+  const [parent, branch] = all;
   const fork = (lines[1]?.from ?? first) - first;
   const ends = [parent?.[fork - 1], branch?.[fork]];
+  const rules = scalesOf(timeline, current).map(({ share }) => `M${WIDE * share} 0V${HIGH}`);
   svg.replaceChildren(
-    path("break", breaks.map((at) => `M${across(at + 0.5)} 0V${HIGH}`).join("")),
-    path("fork line-1", ends.every(Boolean) ? `M${ends.join("L")}` : ""),
-    ...parts.flat(),
+    path("scale", rules.slice(1).join("")),
+    path("fork line-1", ends.every(Boolean) ? `M${ends.map((end) => spot(end!)).join("L")}` : ""),
+    ...parts,
   );
 }
 

@@ -9,26 +9,39 @@ type Last = NonNullable<Report["last"]>;
 
 const words = text.timeline;
 
-/** One sentence on a pass. */
-export function passSentence(
-  timeline: Timeline,
-  line: Line,
-  at: number,
-  { last, levels }: Report,
-): string {
-  if (!last) return words.bare(at);
-  const scale = levels > 1 ? words.scaleOf(levels - last.level, levels) : "";
-  const said = saidOf(last, at, scale);
-  const parted = at === line.from + 1 && line.from > timeline.first;
-  return parted ? `${wayOn(line)} ${said}` : said;
+/** A part of what is said; what is aside can be left out where there is little room. */
+export interface Said {
+  words: string;
+  aside: boolean;
 }
 
-function saidOf(last: Last, at: number, scale: string): string {
+const first = (words: string): Said => ({ words, aside: false });
+const aside = (words: string): Said => ({ words, aside: true });
+
+/** What is said of a pass, to be put one after the other. */
+export function passSaid(timeline: Timeline, line: Line, at: number, report: Report): Said[] {
+  const { last, levels } = report;
+  if (!last) return [first(words.bare(at))];
+  const { stage } = last;
+  const parted = at === line.from + 1 && line.from > timeline.first;
+  return [
+    first(words.passDid(at)),
+    aside(levels > 1 ? words.scaleOf(levels - last.level, levels) : ""),
+    first(last.taken_back ? words.takenBack(stage) : none(last) ? words.noSteps : words.did(stage)),
+    ...[parted ? wayOn(line) : "", cameTo(last), last.taken_back ? "" : words.cameFrom(stage)]
+      .filter(Boolean)
+      .map((words) => aside(` ${words}`)),
+  ];
+}
+
+/** Whether depth pixel by pixel explained no region better. */
+const none = ({ stage, adopted }: Last) => stage === "steps" && !adopted;
+
+function cameTo(last: Last): string {
   const { stage, adopted, taken_back, changed } = last;
-  if (taken_back) return words.takenBack(at, scale, stage);
-  if (stage === "steps" && !adopted) return words.noSteps(at, scale);
-  const sides = stage === "steps" ? words.adopted(adopted) : words.changed(changed, count(changed));
-  return words.did(at, scale, stage, sides);
+  if (taken_back) return words.finished;
+  if (none(last)) return words.nothingChanged;
+  return stage === "steps" ? words.adopted(adopted) : words.changed(changed, count(changed));
 }
 
 const wayOn = ({ from, whole }: Line) =>

@@ -16,7 +16,8 @@ import {
   differences,
   energySentence,
   lineName,
-  passSentence,
+  passSaid,
+  type Said,
   thinnedSentence,
 } from "./sentences";
 
@@ -38,8 +39,15 @@ const range = make("input", {
   min: 0,
   step: 1,
   "aria-label": words.pass,
+  "aria-describedby": "energy-told",
+  title: words.line,
 });
+const told = make("p", { id: "energy-told", role: "tooltip" }, words.line);
 const sentence = make("p", { id: "pass-sentence", class: "sentence" });
+const more = make("button", {
+  ...{ type: "button", class: "more", "aria-label": words.whole, title: words.whole },
+  ...{ "aria-expanded": "false", "aria-controls": "pass-sentence" },
+});
 const going = make(
   "button",
   { type: "button", id: "go-on" },
@@ -83,7 +91,7 @@ export function mountTimeline(): void {
       "div",
       { class: "time-row" },
       make("div", { class: "steps" }, back, playing, on),
-      make("div", { class: "track" }, scales, chart, range),
+      make("div", { class: "track" }, scales, chart, range, told),
       beat,
     ),
     make("div", { class: "time-words" }, sentence, going),
@@ -104,6 +112,9 @@ export function mountTimeline(): void {
     playing.replaceChildren(icon(plays ? "pause" : "run"));
     playing.title = plays ? words.stop : words.play;
     playing.ariaLabel = playing.title;
+  });
+  more.addEventListener("click", () => {
+    more.ariaExpanded = String(sentence.classList.toggle("whole"));
   });
   going.addEventListener("click", () => {
     rest();
@@ -230,11 +241,11 @@ function show(state: Readonly<State>): void {
   range.value = String(place.at);
   range.style.setProperty("--share", String(shareOf(timeline, place.at)));
   range.dataset["line"] = String(place.line);
-  const text = report
-    ? passSentence(timeline, line, at, report) + thinnedSentence(place.at, at)
-    : words.start;
   const left = report ? energySentence(timeline, line, at) : "";
-  sentence.textContent = `${text} ${left}`;
+  say([
+    ...(report ? passSaid(timeline, line, at, report) : [{ words: words.start, aside: false }]),
+    { words: `${report ? thinnedSentence(place.at, at) : ""} ${left}`, aside: false },
+  ]);
   range.setAttribute("aria-valuetext", report ? words.place(at, end, left) : words.startShort);
   const choice = lines.querySelector<HTMLInputElement>(`input[value="${place.line}"]`);
   if (choice) choice.checked = true;
@@ -251,6 +262,15 @@ function tag({ share, name }: { share: number; name: string }): HTMLElement {
   const element = make("span", {}, name);
   element.style.left = `${100 * share}%`;
   return element;
+}
+
+/** What there is little room for comes with a press. */
+function say(parts: Said[]): void {
+  more.hidden = !parts.some(({ words, aside }) => aside && words);
+  sentence.replaceChildren(
+    ...parts.map(({ words, aside }) => make("span", { class: aside ? "aside" : null }, words)),
+    more,
+  );
 }
 
 let compared = 0;

@@ -97,6 +97,8 @@ export const timeline = {
   play: "Play the passes",
   stop: "Stop playing",
   pass: "Pass",
+  /** What is drawn along the timeline. */
+  line: "The energy (7), pass by pass. Where the line is dashed, the energy becomes another sum: a finer scale or new weights. There the line goes on at the same height.",
   beat: "Time for each pass when playing",
   beats: (seconds: number) => `${seconds} s per pass`,
   goOn: "Go on",
@@ -122,14 +124,17 @@ export const timeline = {
   startShort: "Start",
   place: (pass: number, of: number, energy: string) => `Pass ${pass} of ${of}. ${energy}`,
   bare: (pass: number) => `Pass ${pass}.`,
+  /** The beginning of what a pass did. */
+  passDid: (pass: number) => `Pass ${pass}`,
+  whole: "All on this pass",
   /** Of which scale a pass was, within a sentence on it. */
   scaleOf: (scale: number, of: number) => `, scale ${scale} of ${of}`,
-  did: (pass: number, scale: string, stage: Stage, changed: string) =>
-    `Pass ${pass}${scale}: ${stages[stage].did}. ${changed} From ${stages[stage].from}.`,
-  takenBack: (pass: number, scale: string, stage: Stage) =>
-    `Pass ${pass}${scale}: ${stages[stage].did}. This raised (7), so it was undone, and the scale is finished.`,
-  noSteps: (pass: number, scale: string) =>
-    `Pass ${pass}${scale}: depth was estimated pixel by pixel, but explained no region better. Nothing changed. From ${stages.steps.from}.`,
+  did: (stage: Stage) => `: ${stages[stage].did}.`,
+  cameFrom: (stage: Stage) => `From ${stages[stage].from}.`,
+  takenBack: (stage: Stage) => `: ${stages[stage].did}. This raised (7), so it was undone.`,
+  finished: "The scale is finished.",
+  noSteps: ": depth was estimated pixel by pixel, but explained no region better.",
+  nothingChanged: "Nothing changed.",
   adopted: (regions: number) =>
     regions === 1 ? "It was adopted in 1 region." : `It was adopted in ${regions} regions.`,
   /** `pixels` is the number as it is written. */
