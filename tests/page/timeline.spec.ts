@@ -22,6 +22,8 @@ import {
 import type { Page } from "@playwright/test";
 
 import type { State } from "../../www/store";
+import { heightsOf } from "../../www/timeline/heights";
+import type { Line } from "../../www/timeline/line";
 
 const slider = (page: Page) => page.getByRole("slider", { name: "Pass", exact: true });
 const told = (page: Page) => page.locator("#pass-sentence");
@@ -246,6 +248,57 @@ test("all passes are there after a reload, and can be gone on from", async ({ op
   // With the same settings it is the same way.
   const [one, other] = await energies(page);
   expect(other).toEqual(one);
+});
+
+test("the energy is one line, which falls where two energies compare", () => {
+  const line = (from: number, energies: number[], breaks: number[]): Line => {
+    return { solve: "one", from, whole: true, energies, breaks, passes: [] };
+  };
+  const first = line(0, [80, 40, 900, 450, 450, 500], [2]);
+  // Another way from the third pass on, the same sum in the end.
+  const second = line(3, [80, 40, 900, 7, 6, 500], [2, 3]);
+  const timeline = { first: 0, lines: [first, second] };
+  const half = Math.log(0.5);
+  const heights = heightsOf(timeline, first).map(({ height }) => height / half);
+  expect(heights.map((one) => Number(one.toFixed(3)))).toEqual([0, 1, 1, 2, 2, 1.848]);
+  expect(heightsOf(timeline, first).map(({ compares }) => compares)).toEqual([
+    ...[false, true, false],
+    ...[true, true, true],
+  ]);
+  const other = heightsOf(timeline, second).map(({ height }) => height / half);
+  expect(other.slice(0, 3)).toEqual(heights.slice(0, 3));
+  expect(other[3]).toBe(heights[2]);
+  expect(other[4]).toBeGreaterThan(other[3]!);
+  expect(other[5]).toBe(heights[5]);
+});
+
+test("on a phone what a pass did takes two lines, and all of it comes with a press", async ({
+  page,
+}) => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  await open(page);
+  await solve(page);
+  const lines = () =>
+    told(page).evaluate((one) => {
+      const range = document.createRange();
+      range.selectNodeContents(one);
+      const { lineHeight } = getComputedStyle(one);
+      return Math.round(range.getBoundingClientRect().height / parseFloat(lineHeight));
+    });
+  const [made] = await energies(page);
+  for (let pass = 0; pass <= made!.length; pass++) {
+    await slider(page).fill(String(pass));
+    await expect(told(page)).toContainText(pass === 0 ? "Start" : `Pass ${pass}`);
+    expect(await lines(), `pass ${pass}`).toBeLessThanOrEqual(2);
+  }
+  const said = told(page).getByText(/From \(7\)/);
+  await expect(said).toBeHidden();
+  await page.getByRole("button", { name: "All on this pass" }).click();
+  await expect(said).toBeVisible();
+  const { violations } = await new AxeBuilder({ page }).analyze();
+  expect(violations.map(({ id }) => id)).toEqual([]);
+  await page.getByRole("button", { name: "All on this pass" }).click();
+  await expect(said).toBeHidden();
 });
 
 test("on a phone a finger goes through the solve", async ({ page }) => {

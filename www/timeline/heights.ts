@@ -4,7 +4,7 @@
  *
  *     h = 0 after the first pass;  hₙ = hₙ₋₁ + ln(Eₙ / Eₙ₋₁), or hₙ₋₁ where Eₙ is another sum than Eₙ₋₁
  *
- * Two lines that part have the same heights up to there.
+ * Two lines have the same heights up to where they part, and wherever they come to the same energy.
  */
 
 import type { Line, Timeline } from "./line";
@@ -16,7 +16,10 @@ export interface Point {
   compares: boolean;
 }
 
-export function heightsOf({ first }: Timeline, { energies, breaks }: Line): Point[] {
+export function heightsOf(timeline: Timeline, line: Line): Point[] {
+  const { first, lines } = timeline;
+  const { energies, breaks } = line;
+  const parent = lines[0] && lines[0] !== line ? heightsOf(timeline, lines[0]) : [];
   let height = 0;
   return energies.map((energy, i) => {
     const at = first + 1 + i;
@@ -25,7 +28,9 @@ export function heightsOf({ first }: Timeline, { energies, breaks }: Line): Poin
     const fall = compares ? Math.log(energy / before) : 0;
     // No sum that is no number, or is none, has a logarithm.
     if (Number.isFinite(fall)) height += fall;
-    return { at, height, compares };
+    const same = energy === lines[0]?.energies[i] ? parent[i] : undefined;
+    height = same?.height ?? height;
+    return same ?? { at, height, compares };
   });
 }
 
