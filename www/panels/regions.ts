@@ -45,6 +45,7 @@ function build({ shapes, catalogues, width }: Readonly<State>): void {
     row(label, catalogues?.colours[label] ?? "grey"),
   );
   byId("regions").replaceChildren(...rows);
+  refresh(store.state);
 }
 
 function row(label: number, colour: string): HTMLElement {
