@@ -186,9 +186,16 @@ export interface State {
 
 type Reaction = () => void;
 
+/** After the next frame is drawn; a page that is not seen draws none. */
+function inNextFrame(work: () => void): void {
+  if (document.hidden) setTimeout(work);
+  else requestAnimationFrame(() => setTimeout(work));
+}
+
 /** State with subscriptions. */
 export class Store {
   private reactions: Reaction[] = [];
+  private later = new Set<Reaction>();
 
   constructor(private current: State) {}
 
@@ -199,22 +206,6 @@ export class Store {
   update(patch: Partial<State>): void {
     this.current = { ...this.current, ...patch };
     for (const react of this.reactions) react();
-  }
-
-  /**
-   * The same, but in a task of its own after the change, with what the state is by then: for panels beside what is looked
-   * at, so that all that a progress changes is no single long task.
-   */
-  watchAfter(select: (state: State) => readonly unknown[], react: (state: State) => void): void {
-    let waiting = false;
-    this.watch(select, () => {
-      if (waiting) return;
-      waiting = true;
-      setTimeout(() => {
-        waiting = false;
-        react(this.current);
-      });
-    });
   }
 
   /** Calls `react` now, and again whenever one of the selected values is another than before; gives what ends that. */
@@ -231,6 +222,27 @@ export class Store {
     return () => {
       this.reactions = this.reactions.filter((one) => one !== check);
     };
+  }
+
+  /**
+   * The same, but later, with what the state is by then: for panels beside what is looked at. Each has a frame of its own
+   * after the picture's, so that all that a progress changes is no single long task.
+   */
+  watchAfter(select: (state: State) => readonly unknown[], react: (state: State) => void): void {
+    const later = () => react(this.current);
+    this.watch(select, () => {
+      const waiting = this.later.size > 0;
+      this.later.add(later);
+      if (!waiting) inNextFrame(() => this.catchUp());
+    });
+  }
+
+  private catchUp(): void {
+    const [next] = this.later;
+    if (!next) return;
+    this.later.delete(next);
+    if (this.later.size > 0) inNextFrame(() => this.catchUp());
+    next();
   }
 }
 
