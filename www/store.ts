@@ -192,6 +192,14 @@ function inNextFrame(work: () => void): void {
   else requestAnimationFrame(() => setTimeout(work));
 }
 
+function catchUp(queue: Set<Reaction>): void {
+  const [next] = queue;
+  if (!next) return;
+  queue.delete(next);
+  if (queue.size > 0) inNextFrame(() => catchUp(queue));
+  next();
+}
+
 /** State with subscriptions. */
 export class Store {
   private reactions: Reaction[] = [];
@@ -226,23 +234,20 @@ export class Store {
 
   /**
    * The same, but later, with what the state is by then: for panels beside what is looked at. Each has a frame of its own
-   * after the picture's, so that all that a progress changes is no single long task.
+   * after the picture's, so that all that a progress changes is no single long task; one that must not wait for the others
+   * is `prompt`.
    */
-  watchAfter(select: (state: State) => readonly unknown[], react: (state: State) => void): void {
+  watchAfter(
+    select: (state: State) => readonly unknown[],
+    react: (state: State) => void,
+    prompt = false,
+  ): void {
+    const queue = prompt ? new Set<Reaction>() : this.later;
     const later = () => react(this.current);
     this.watch(select, () => {
-      const waiting = this.later.size > 0;
-      this.later.add(later);
-      if (!waiting) inNextFrame(() => this.catchUp());
+      if (queue.size === 0) inNextFrame(() => catchUp(queue));
+      queue.add(later);
     });
-  }
-
-  private catchUp(): void {
-    const [next] = this.later;
-    if (!next) return;
-    this.later.delete(next);
-    if (this.later.size > 0) inNextFrame(() => this.catchUp());
-    next();
   }
 }
 

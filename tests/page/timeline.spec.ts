@@ -107,7 +107,7 @@ test("arrow keys step, the passes play, and a run is followed unless someone wen
   await page.getByRole("button", { name: "Run", exact: true }).click();
   await until(page, ({ report }) => (report?.iterations ?? 0) >= 4);
   // At the end it follows.
-  expect(Number(await slider(page).inputValue())).toBeGreaterThanOrEqual(4);
+  await expect.poll(async () => Number(await slider(page).inputValue())).toBeGreaterThanOrEqual(4);
   await slider(page).focus();
   await page.keyboard.press("Home");
   await page.keyboard.press("ArrowRight");

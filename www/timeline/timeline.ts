@@ -142,12 +142,16 @@ export function mountTimeline(): void {
     const line = Number((event.target as HTMLInputElement).value);
     void goTo({ line, at: placeOf(store.state).at });
   });
-  store.watchAfter(({ timeline }) => [timeline], drawLines);
   store.watchAfter(
     ({ timeline, visit, started, running, busy, report }) => [
       ...[timeline, visit, started, running, busy, report],
     ],
-    show,
+    (state) => {
+      if (state.timeline !== lined) drawLines(state);
+      lined = state.timeline;
+      show(state);
+    },
+    true,
   );
   // Curves drawn anew, or another camera, are of the start.
   store.watch(
@@ -191,6 +195,9 @@ function want(at: number): void {
   }
   wanted = at;
 }
+
+/** The timeline whose lines are named. */
+let lined: Timeline | null | undefined;
 
 function drawLines(state: Readonly<State>): void {
   const { timeline } = state;
