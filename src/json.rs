@@ -19,7 +19,8 @@ pub(crate) fn read<T: DeserializeOwned>(text: &str, what: &'static str) -> Resul
 /// # Errors
 /// [`Error::Json`] where it is no JSON.
 pub(crate) fn parsed(text: &str, what: &'static str) -> Result<Value, Error> {
-    serde_json::from_str(text).map_err(|e| unreadable(e, what))
+    // So the parser is compiled in its own crate, for size.
+    text.parse().map_err(|e| unreadable(e, what))
 }
 
 /// What an object says.
