@@ -1,6 +1,7 @@
 // The core as WebAssembly, in pkg/: two modules, what solves and what opens files, for the page's worker and for Node alike.
 
-import { rmSync } from "node:fs";
+import { readdirSync, rmSync } from "node:fs";
+import { homedir } from "node:os";
 import { join } from "node:path";
 
 import { ifMain, root, run, stage } from "./shell.js";
@@ -36,6 +37,8 @@ const CODE = LLVM.map((setting) => `-Cllvm-args=-${setting}`);
 // Nothing lies in the first kilobyte of memory, where the stack ends: sums of addresses and constants may so become
 // offsets, which makes the solver faster by some percent.
 const ADDRESSES = ["--low-memory-unused", "--optimize-added-constants-propagate"];
+
+const TARGET = "wasm32-unknown-unknown";
 
 /** @typedef {{ name: string, feature: string, profile: string, optimise: string[], binding: string[] }} Module */
 
@@ -86,17 +89,29 @@ export async function benchWasm() {
  */
 function made(folder, targets, { name, feature, profile, optimise, binding }) {
   return stage(`WebAssembly: compile, bind, optimise ${name}`, async () => {
-    const target = "wasm32-unknown-unknown";
     const lib = ["rustc", "--locked", "--profile", profile, "--lib", "--crate-type", "cdylib"];
     const words = ["--no-default-features", "--features", feature];
-    const where = ["--target", target, "--target-dir", targets];
-    await run("cargo", [...lib, ...words, ...where, "--", ...CODE]);
-    const built = join(targets, target, profile, "relievo.wasm");
+    const where = ["--target", TARGET, "--target-dir", targets];
+    await run("cargo", [...lib, ...words, ...where, ...(await unplaced()), "--", ...CODE]);
+    const built = join(targets, TARGET, profile, "relievo.wasm");
     const bind = ["--target", "web", "--out-dir", folder, "--out-name", name, ...binding];
     await run("wasm-bindgen", [...bind, built]);
     const bound = join(folder, `${name}_bg.wasm`);
     await run("wasm-opt", [...optimise, ...FEATURES, bound, "-o", bound]);
   });
+}
+
+/**
+ * So that panics name the sources of other crates without the folders of this machine: fewer bytes, and the same ones on
+ * every machine.
+ */
+async function unplaced() {
+  await run("cargo", ["fetch", "--locked", "--quiet", "--target", TARGET]);
+  const sources = join(process.env.CARGO_HOME ?? join(homedir(), ".cargo"), "registry", "src");
+  const flags = readdirSync(sources).map((registry) => {
+    return `--remap-path-prefix=${join(sources, registry)}/=`;
+  });
+  return ["--config", `target.${TARGET}.rustflags=${JSON.stringify(flags)}`];
 }
 
 await ifMain(import.meta.url, async () => {

@@ -1,5 +1,7 @@
 //! A rectangle of a frame: what belongs to a small thing need not be computed everywhere.
 
+use std::ops::Range;
+
 /// Pixels `left..left + width` by `top..top + height` of a frame.
 ///
 /// ```
@@ -34,9 +36,9 @@ impl Window {
     }
 
     /// Its pixels, row by row.
-    pub(crate) fn pixels(self) -> impl Iterator<Item = (usize, usize)> {
+    pub(crate) fn pixels(self) -> Places {
         let columns = self.left..self.left + self.width;
-        (self.top..self.top + self.height).flat_map(move |y| columns.clone().map(move |x| (x, y)))
+        places(columns, self.top..self.top + self.height)
     }
 
     /// The smallest window with every pixel of a `width × height` frame for which `inside` holds; `None` when there is no
@@ -57,5 +59,39 @@ impl Window {
             width: max[0] + 1 - left,
             height: max[1] + 1 - top,
         })
+    }
+}
+
+/// The places of a rectangle, row by row.
+pub(crate) fn places(columns: Range<usize>, rows: Range<usize>) -> Places {
+    Places {
+        at: (columns.start, rows.start),
+        // Where there are no columns there is nothing.
+        bottom: if columns.is_empty() { 0 } else { rows.end },
+        columns,
+    }
+}
+
+/// What [`places`] gives. Adapters nested in one another take much more code.
+#[derive(Clone)]
+pub(crate) struct Places {
+    at: (usize, usize),
+    columns: Range<usize>,
+    bottom: usize,
+}
+
+impl Iterator for Places {
+    type Item = (usize, usize);
+
+    fn next(&mut self) -> Option<(usize, usize)> {
+        let (x, y) = self.at;
+        if y >= self.bottom {
+            return None;
+        }
+        self.at = match x + 1 {
+            next if next < self.columns.end => (next, y),
+            _ => (self.columns.start, y + 1),
+        };
+        Some((x, y))
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Coordinates are pixels, (0, 0) the centre of the top-left pixel.
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::polygon;
 use crate::error::Error;
@@ -22,12 +23,12 @@ use crate::grid::Grid;
 /// ).unwrap();
 /// assert!(triangle.signed_distance(5.0, 3.0) > 0.0);
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(
     all(target_arch = "wasm32", feature = "javascript"),
     derive(tsify::Tsify)
 )]
-#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+#[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Shape {
     /// A circle.
     Circle {
@@ -43,6 +44,48 @@ pub enum Shape {
         /// The corners, at least three.
         points: Vec<[f64; 2]>,
     },
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Circle,
+    Polygon,
+}
+
+/// Whatever a curve may have.
+#[derive(Deserialize)]
+#[serde(rename = "curve", deny_unknown_fields)]
+struct Drawn {
+    kind: Kind,
+    x: Option<f64>,
+    y: Option<f64>,
+    r: Option<f64>,
+    points: Option<Vec<[f64; 2]>>,
+}
+
+// What is derived keeps a value of any type until it knows the kind, and takes 8 kB more.
+impl<'de> Deserialize<'de> for Shape {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let it = Drawn::deserialize(from)?;
+        let needed = |value: Option<f64>, name| value.ok_or_else(|| D::Error::missing_field(name));
+        match it.kind {
+            Kind::Circle if it.points.is_some() => {
+                Err(D::Error::unknown_field("points", &["kind", "x", "y", "r"]))
+            }
+            Kind::Circle => Ok(Self::Circle {
+                x: needed(it.x, "x")?,
+                y: needed(it.y, "y")?,
+                r: needed(it.r, "r")?,
+            }),
+            Kind::Polygon if it.x.or(it.y).or(it.r).is_some() => Err(D::Error::custom(
+                "a polygon has `points`, and neither `x` nor `y` nor `r`",
+            )),
+            Kind::Polygon => (it.points)
+                .map(|points| Self::Polygon { points })
+                .ok_or_else(|| D::Error::missing_field("points")),
+        }
+    }
 }
 
 impl Shape {

@@ -189,7 +189,7 @@ impl File {
     }
 
     fn close(self, primitives: Vec<Value>, image: usize) -> Vec<u8> {
-        let mut text: Value = serde_json::from_str(SCENE).expect("it is JSON");
+        let mut text: Value = SCENE.parse().expect("it is JSON");
         text["meshes"][0]["primitives"] = primitives.into();
         text["images"][0]["bufferView"] = image.into();
         text["bufferViews"] = self.views.into();

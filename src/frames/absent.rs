@@ -13,6 +13,7 @@
 
 use super::frame::Frame;
 use crate::grid::Grid;
+use crate::window::places;
 
 /// Grey levels of what is black.
 const BLACK: f32 = 4.0;
@@ -115,10 +116,9 @@ fn mark_border(greys: [&Grid<f32>; 2], mask: &mut Grid<u8>) {
 fn black_at_edges(grey: &Grid<f32>) -> Grid<u8> {
     let (width, height) = (grey.width(), grey.height());
     let mut found = Grid::new(width, height, 0u8);
-    let sides = (0..height).flat_map(|y| [(0, y), (width - 1, y)]);
-    let mut open: Vec<(usize, usize)> = (0..width)
-        .flat_map(|x| [(x, 0), (x, height - 1)])
-        .chain(sides)
+    let edge = |at: usize, side: usize| at == 0 || at + 1 == side;
+    let mut open: Vec<(usize, usize)> = places(0..width, 0..height)
+        .filter(|&(x, y)| edge(x, width) || edge(y, height))
         .collect();
     while let Some((x, y)) = open.pop() {
         if found[(x, y)] != 0 || grey[(x, y)] > BLACK {
@@ -154,7 +154,7 @@ fn mark_overlay([first, second]: [&Grid<f32>; 2], mask: &mut Grid<u8>) {
     }
     let most = (LETTER.1 * first.len() as f64) as usize;
     let mut seen = mask.clone();
-    for start in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+    for start in places(0..width, 0..height) {
         if seen[start] != 0 || !still(start) {
             continue;
         }
@@ -188,10 +188,8 @@ fn neighbours(
     width: usize,
     height: usize,
 ) -> impl Iterator<Item = (usize, usize)> {
-    let rows = y.saturating_sub(1)..(y + 2).min(height);
-    let across = move || x.saturating_sub(1)..(x + 2).min(width);
-    rows.flat_map(move |j| across().map(move |i| (i, j)))
-        .filter(move |&at| at != (x, y))
+    let around = |at: usize, side: usize| at.saturating_sub(1)..(at + 2).min(side);
+    places(around(x, width), around(y, height)).filter(move |&at| at != (x, y))
 }
 
 fn spread(mask: &mut Grid<u8>, (x, y): (usize, usize), reach: usize) {

@@ -20,6 +20,7 @@
 use super::frame::{Frame, check_size};
 use crate::error::Error;
 use crate::grid::Grid;
+use crate::window::places;
 
 /// Half the side of a block, pixels; blocks overlap by as much.
 const HALF: usize = 8;
@@ -48,7 +49,7 @@ impl Frame {
             [rows(0), rows(1)]
         });
         let (mut textured, mut combed) = (0usize, 0usize);
-        for (i, j) in (1..down).flat_map(|j| (1..across).map(move |i| (i, j))) {
+        for (i, j) in places(1..across, 1..down) {
             let four = [(i, j), (i - 1, j), (i, j - 1), (i - 1, j - 1)].map(|at| cells[at]);
             let sum = |rows: usize, d: usize| four.iter().map(|cell| cell[rows][d]).sum::<f32>();
             if (0..2).any(|rows| sum(rows, SHIFTS) < FLAT * (2 * HALF * HALF) as f32) {

@@ -117,7 +117,7 @@ impl Frame {
     /// A frame whose rows `fill(y, colours, known)` writes: sRGB 0–255, not rounded, and whether there is a picture.
     pub(super) fn from_rows(width: usize, height: usize, fill: Fill) -> Self {
         let n = least_factor(width * height);
-        let mut rgb = Vec::with_capacity(width * height);
+        let mut rgb = Grid::new(width, height, [0u8; 3]);
         let mut grey = Grid::new(width / n, height / n, 0.0f32);
         let mut unknown: Option<Grid<u8>> = None;
         let mut row = vec![[0.0f32; 3]; width];
@@ -125,7 +125,9 @@ impl Frame {
         let share = 1.0 / (n * n) as f32;
         for y in 0..height {
             fill(y, &mut row, &mut known);
-            rgb.extend((row.iter()).map(|c| c.map(|c| c.round().clamp(0.0, 255.0) as u8)));
+            for (to, c) in rgb.row_mut(y).iter_mut().zip(&row) {
+                *to = c.map(|c| c.round().clamp(0.0, 255.0) as u8);
+            }
             if y / n < grey.height() {
                 let sums = grey.row_mut(y / n).iter_mut();
                 if n == 1 {
@@ -145,7 +147,6 @@ impl Frame {
                 }
             }
         }
-        let rgb = Grid::from_vec(width, height, rgb).expect("a row for each y");
         Self {
             grey: Arc::new(grey),
             rgb: Arc::new(rgb),

@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::block_search::SPACING;
 use super::matches::Match;
 use crate::grid::Grid;
+use crate::window::places;
 
 /// Places of a frame, four pixels apart, and the matches there.
 pub struct Lattice {
@@ -38,7 +39,7 @@ impl Lattice {
     }
 
     /// The matches within `reach` places of one, itself left out.
-    pub fn around(&self, matched: &Match, reach: isize) -> impl Iterator<Item = usize> {
+    pub fn around(&self, matched: &Match, reach: usize) -> impl Iterator<Item = usize> {
         self.within(place(matched), reach)
             .filter_map(|(other, _)| self.at(other))
     }
@@ -47,14 +48,13 @@ impl Lattice {
     pub fn within(
         &self,
         (i, j): (usize, usize),
-        reach: isize,
-    ) -> impl Iterator<Item = ((usize, usize), isize)> + use<> {
-        let [across, down] = self.size().map(|n| n as isize);
-        let offsets = (-reach..=reach).flat_map(move |b| (-reach..=reach).map(move |a| (a, b)));
-        offsets.filter_map(move |(a, b)| {
-            let (x, y) = (i as isize + a, j as isize + b);
-            let on = (a, b) != (0, 0) && x >= 0 && y >= 0 && x < across && y < down;
-            on.then_some(((x as usize, y as usize), a * a + b * b))
+        reach: usize,
+    ) -> impl Iterator<Item = ((usize, usize), usize)> + use<> {
+        let [across, down] = self.size();
+        let range = |at: usize, side: usize| at.saturating_sub(reach)..(at + reach + 1).min(side);
+        places(range(i, across), range(j, down)).filter_map(move |(x, y)| {
+            let apart = x.abs_diff(i).pow(2) + y.abs_diff(j).pow(2);
+            (apart > 0).then_some(((x, y), apart))
         })
     }
 }

@@ -10,7 +10,7 @@
 //! told from its surroundings by a small part of a match's uncertainty, a single match by several times that.
 
 use std::cmp::{Ordering, Reverse};
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BinaryHeap;
 
 use glam::DVec2;
 
@@ -83,23 +83,50 @@ impl Ord for Pair {
     }
 }
 
+/// The lengths of a patch's lines with its neighbours, in the order of their numbers.
+#[derive(Clone, Default)]
+struct Lengths(Vec<(usize, f64)>);
+
+impl Lengths {
+    fn find(&self, other: usize) -> Result<usize, usize> {
+        self.0.binary_search_by_key(&other, |line| line.0)
+    }
+
+    fn of(&self, other: usize) -> f64 {
+        self.find(other).map_or(0.0, |at| self.0[at].1)
+    }
+
+    fn add(&mut self, other: usize, length: f64) {
+        match self.find(other) {
+            Ok(at) => self.0[at].1 += length,
+            Err(at) => self.0.insert(at, (other, length)),
+        }
+    }
+
+    fn remove(&mut self, other: usize) {
+        if let Ok(at) = self.find(other) {
+            self.0.remove(at);
+        }
+    }
+}
+
 /// The number of the patch of each match: that of one of its matches.
 fn merged(moments: &[Moments], lines: &[(usize, usize)]) -> Vec<usize> {
     let mut groups = Groups::new(moments.len());
     let mut sums = moments.to_vec();
     let mut misfit: Vec<f64> = sums.iter().map(|m| m.fit().misfit).collect();
     let mut age = vec![0u32; sums.len()];
-    let mut length: Vec<BTreeMap<usize, f64>> = vec![BTreeMap::new(); sums.len()];
+    let mut length = vec![Lengths::default(); sums.len()];
     for &(a, b) in lines {
-        *length[a].entry(b).or_default() += 1.0;
-        *length[b].entry(a).or_default() += 1.0;
+        length[a].add(b, 1.0);
+        length[b].add(a, 1.0);
     }
     let price = |a: usize, b: usize, sums: &[Moments], misfit: &[f64], line: f64| {
         (sums[a].with(&sums[b]).fit().misfit - misfit[a] - misfit[b]) / line
     };
     let mut queue = BinaryHeap::with_capacity(lines.len());
     for &(a, b) in lines {
-        let price = price(a, b, &sums, &misfit, length[a][&b]);
+        let price = price(a, b, &sums, &misfit, length[a].of(b));
         let pair = Pair {
             price,
             ends: [a, b],
@@ -116,7 +143,7 @@ fn merged(moments: &[Moments], lines: &[(usize, usize)]) -> Vec<usize> {
             continue;
         }
         if pair.ends != [a, b] || pair.ages != [age[a], age[b]] {
-            let line = length[a][&b];
+            let line = length[a].of(b);
             let price = price(a, b, &sums, &misfit, line);
             let ages = [age[a], age[b]];
             queue.push(Reverse(Pair {
@@ -126,7 +153,7 @@ fn merged(moments: &[Moments], lines: &[(usize, usize)]) -> Vec<usize> {
             }));
             continue;
         }
-        let (kept, gone) = if length[a].len() >= length[b].len() {
+        let (kept, gone) = if length[a].0.len() >= length[b].0.len() {
             (a, b)
         } else {
             (b, a)
@@ -135,13 +162,12 @@ fn merged(moments: &[Moments], lines: &[(usize, usize)]) -> Vec<usize> {
         sums[kept] = sums[kept].with(&sums[gone]);
         misfit[kept] = sums[kept].fit().misfit;
         age[kept] += 1;
-        length[kept].remove(&gone);
-        for (other, line) in std::mem::take(&mut length[gone]) {
+        length[kept].remove(gone);
+        for (other, line) in std::mem::take(&mut length[gone].0) {
             if other != kept {
-                *length[kept].entry(other).or_default() += line;
-                let lines = &mut length[other];
-                lines.remove(&gone);
-                *lines.entry(kept).or_default() += line;
+                length[kept].add(other, line);
+                length[other].remove(gone);
+                length[other].add(kept, line);
             }
         }
     }

@@ -29,7 +29,7 @@ const SHARE: f64 = 0.7;
 /// Patches of fewer matches join one neighbour only.
 const SMALL: usize = 64;
 /// Half of the window in which flow is found, in places of the lattice.
-const REACH: isize = 3;
+const REACH: usize = 3;
 /// Matches that share one independent observation: windows of 9 px, 4 px apart.
 const SHARED: f64 = 5.0;
 /// Times that segments are compared.

@@ -15,6 +15,7 @@ use crate::camera::{Camera, RigidMotion};
 use crate::init::{
     Carrier, MATCH_RADIUS as HALF, Match, Sample, Small, epipolar_motion, small_samples,
 };
+use crate::window::places;
 
 /// Share of a region's matches that a rigid motion explains.
 const RIGID: f64 = 0.75;
@@ -47,7 +48,7 @@ impl Layered {
             let [x, y] = sample.matched.at.map(|v| v as usize);
             let own = label(x, y);
             let (left, top) = (x.saturating_sub(HALF), y.saturating_sub(HALF));
-            let mut around = (top..=y + HALF).flat_map(|y| (left..=x + HALF).map(move |x| (x, y)));
+            let mut around = places(left..x + HALF + 1, top..y + HALF + 1);
             if around.all(|(x, y)| label(x, y) == own) {
                 samples[usize::from(own)].push(*sample);
             }

@@ -10,7 +10,7 @@ use crate::motion_model::MotionModel;
 use crate::options::Options;
 use crate::solver::Weights;
 use crate::spread::LEAST_SIGMA;
-use crate::window::Window;
+use crate::window::{Window, places};
 
 /// What curvature is charged while motion is found, and for depth, in variances of the residual, px².
 pub(super) const STIFFNESS: [f64; 2] = [1e5, 1e6];
@@ -43,7 +43,8 @@ impl Layered {
 
     /// The pixels that region k owns, row by row.
     pub(super) fn owned(&self, k: usize) -> impl Iterator<Item = (usize, usize)> {
-        let pixels = self.regions[k].window.into_iter().flat_map(Window::pixels);
+        let window = self.regions[k].window;
+        let pixels = window.map_or_else(|| places(0..0, 0..0), Window::pixels);
         pixels.filter(move |&at| usize::from(self.labels[at]) == k)
     }
 

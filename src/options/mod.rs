@@ -204,7 +204,7 @@ impl Options {
                 all.insert(key, value);
             }
         }
-        Self::deserialize(Value::Object(all)).map_err(|e| json::unreadable(e, "options"))
+        Self::deserialize(all).map_err(|e| json::unreadable(e, "options"))
     }
 
     /// Checks every setting against its range.

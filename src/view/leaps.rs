@@ -11,6 +11,7 @@
 //! between takes the depth of the side that it is on, so that nothing spans the leap.
 
 use crate::grid::Grid;
+use crate::window::places;
 
 /// Pixels on each side over which a leap may be spread.
 const REACH: usize = 5;
@@ -183,11 +184,10 @@ pub(super) fn neighbourhood<const N: usize>(
     height: usize,
     (x, y): (usize, usize),
 ) -> impl Iterator<Item = ((usize, usize), f32)> {
-    (0..N).flat_map(move |j| {
-        (0..N).filter_map(move |i| {
-            let (x, y) = ((x + i).checked_sub(N / 2)?, (y + j).checked_sub(N / 2)?);
-            (x < width && y < height).then(|| ((x, y), weights[i] * weights[j]))
-        })
+    let range = |at: usize, side: usize| at.saturating_sub(N / 2)..(at + N / 2 + 1).min(side);
+    places(range(x, width), range(y, height)).map(move |near| {
+        let [i, j] = [near.0 + N / 2 - x, near.1 + N / 2 - y];
+        (near, weights[i] * weights[j])
     })
 }
 

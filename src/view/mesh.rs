@@ -16,6 +16,7 @@ use super::layers::{Layer, Layers, NOTHING};
 use super::leaps::{LABELS, neighbourhood, window};
 use crate::frames::Frame;
 use crate::interpretation::Interpretation;
+use crate::window::places;
 
 /// Vertices aimed at when the step is chosen automatically.
 const VERTICES: usize = 90_000;
@@ -409,10 +410,8 @@ impl Builder<'_> {
 
 /// The corners of every cell of a grid of vertices, counter-clockwise as seen: down the left side, up the right one.
 fn cells(columns: usize, rows: usize) -> impl Iterator<Item = [usize; 4]> {
-    (1..rows).flat_map(move |y| {
-        (1..columns).map(move |x| {
-            let (above, below) = ((y - 1) * columns + x, y * columns + x);
-            [above - 1, below - 1, below, above]
-        })
+    places(1..columns, 1..rows).map(move |(x, y)| {
+        let (above, below) = ((y - 1) * columns + x, y * columns + x);
+        [above - 1, below - 1, below, above]
     })
 }

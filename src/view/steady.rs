@@ -11,7 +11,7 @@ use super::leaps::{Leap, window};
 use crate::frames::blur;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
-use crate::window::Window;
+use crate::window::{Places, Window, places};
 
 /// σ of G as a share of the longer side, and at most, in pixels.
 const WIDTH: (f32, f32) = (1.0 / 40.0, 10.0);
@@ -121,14 +121,10 @@ pub(super) fn mean(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
 }
 
 /// The pixels within two of `at`, fewer at the border, always as many on both sides.
-fn around(
-    grid: &Grid<f32>,
-    (x, y): (usize, usize),
-) -> impl Iterator<Item = (usize, usize)> + use<> {
+fn around(grid: &Grid<f32>, (x, y): (usize, usize)) -> Places {
     let range = |at: usize, side: usize| {
         let reach = at.min(side - 1 - at).min(2);
         at - reach..at + reach + 1
     };
-    let columns = range(x, grid.width());
-    range(y, grid.height()).flat_map(move |y| columns.clone().map(move |x| (x, y)))
+    places(range(x, grid.width()), range(y, grid.height()))
 }

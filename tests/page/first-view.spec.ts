@@ -4,7 +4,7 @@ import { moments, photo } from "./films";
 import { expect, look, read, ready, test, inSettings } from "./helpers";
 
 /** Bytes of the WebAssembly that solves. */
-const WASM_BYTES = 1_280_000;
+const WASM_BYTES = 1_200_000;
 /** Bytes of all that is sent until a sequence can be solved, compressed. */
 const SENT_BYTES = 800_000;
 

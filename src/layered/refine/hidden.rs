@@ -9,6 +9,17 @@ use crate::layered::view::View;
 
 /// How far to look for what is seen, in pixels.
 const FARTHEST: isize = 40;
+/// The ways in which it is looked.
+const AROUND: [(isize, isize); 8] = [
+    (-1, -1),
+    (-1, 0),
+    (-1, 1),
+    (0, -1),
+    (0, 1),
+    (1, -1),
+    (1, 0),
+    (1, 1),
+];
 
 /// What arrives at each pixel of the second frame.
 pub struct Arrivals {
@@ -108,8 +119,6 @@ pub fn continue_outside(rho: &mut Grid<f32>, view: &View, hidden: &Grid<bool>, s
 pub fn fill(rho: &mut Grid<f32>, hidden: &Grid<bool>) {
     let seen = rho.clone();
     let (width, height) = (rho.width() as isize, rho.height() as isize);
-    let nine = (-1..=1).flat_map(|dx| [-1, 0, 1].map(|dy| (dx, dy)));
-    let eight = nine.filter(|&way| way != (0, 0));
     for y in 0..height {
         for x in 0..width {
             if !hidden[(x as usize, y as usize)] {
@@ -117,7 +126,7 @@ pub fn fill(rho: &mut Grid<f32>, hidden: &Grid<bool>) {
             }
             let mut around = [0.0f32; 8];
             let mut count = 0;
-            for (dx, dy) in eight.clone() {
+            for (dx, dy) in AROUND {
                 for k in 1..=FARTHEST {
                     let (u, v) = (x + k * dx, y + k * dy);
                     if u < 0 || v < 0 || u >= width || v >= height {

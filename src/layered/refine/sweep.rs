@@ -83,12 +83,10 @@ fn sweep_whole(
     let costs = volume(frames, &view, support, labels, low, step);
     let sums = aggregate(&costs, labels, frames[0]);
     drop(costs);
-    let best = Grid::from_vec(
-        width,
-        height,
-        sums.chunks_exact(labels).map(minimum).collect(),
-    )
-    .expect("a label for each pixel");
+    let best = Grid::from_fn(width, height, |x, y| {
+        let at = labels * (y * width + x);
+        minimum(&sums[at..at + labels])
+    });
     drop(sums);
     let depth = |labels: &Grid<f32>| {
         Grid::from_fn(width, height, |x, y| {

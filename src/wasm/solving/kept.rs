@@ -114,7 +114,7 @@ impl Kept {
                 expected: (found.labels.width(), found.labels.height()),
             });
         }
-        let outlines: Vec<Outline> = contours.read("curves")?;
+        let outlines: Vec<Outline> = contours.list("curves")?;
         let account: Account = report.read("report")?;
         let models: Vec<_> = account.regions.iter().map(|region| region.model).collect();
         let motion = MotionFile {

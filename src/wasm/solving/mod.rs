@@ -37,6 +37,7 @@ pub use working::working_sizes;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 
@@ -93,9 +94,20 @@ impl Json {
         ViewParams::from_json(&self.text("view settings")?)
     }
 
-    /// The value of type T that it stands for.
+    /// The object of type T that it stands for.
     fn read<T: DeserializeOwned>(&self, what: &'static str) -> Result<T, Error> {
         json::read(&self.text(what)?, what)
+    }
+
+    /// The array of such objects.
+    fn list<T: DeserializeOwned>(&self, what: &'static str) -> Result<Vec<T>, Error> {
+        match json::parsed(&self.text(what)?, what)? {
+            Value::Array(all) => all.into_iter().map(|it| json::object(it, what)).collect(),
+            _ => Err(Error::Json {
+                what,
+                reason: "a JSON array is needed".to_owned(),
+            }),
+        }
     }
 }
 

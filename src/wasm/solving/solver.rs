@@ -53,7 +53,7 @@ impl Solver {
     ) -> Result<Solver, Error> {
         let pair = FramePair::new(first.0.clone(), second.0.clone())?;
         let camera = camera_of(&pair, camera)?;
-        let shapes: Vec<Shape> = shapes.read("curves")?;
+        let shapes: Vec<Shape> = shapes.list("curves")?;
         let options = Options::from_json(&options.text("options")?)?;
         let mut solver = crate::Solver::new(pair, camera, &shapes, options)?;
         solver.set_clock(now);
@@ -127,7 +127,7 @@ impl Solver {
     /// Changes the curves while it runs; on an error they stay.
     #[wasm_bindgen(js_name = setCurves)]
     pub fn set_curves(&mut self, shapes: &Json) -> Result<(), Error> {
-        let shapes: Vec<Shape> = shapes.read("curves")?;
+        let shapes: Vec<Shape> = shapes.list("curves")?;
         self.change().set_curves(&shapes)
     }
 
