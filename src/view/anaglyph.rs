@@ -6,7 +6,7 @@
 //! the sets that he published from 2009 on. Weights of a channel that is used sum to 1, so that what both eyes see alike
 //! keeps its brightness. Luminance is that of Rec. 709.
 
-use super::colour::{decode, encode};
+use super::colour::{Encoder, decode};
 use super::params::{Choice, choose};
 use super::stereo::pair;
 use super::{Picture, ViewParams};
@@ -137,12 +137,13 @@ impl Glasses {
 /// The anaglyph of two sRGB pictures of the same size.
 pub fn dubois(left: &Grid<[u8; 3]>, right: &Grid<[u8; 3]>, glasses: &Glasses) -> Picture {
     let linear: Vec<f32> = (0..=255).map(decode).collect();
+    let encoder = Encoder::new();
     Grid::from_fn(left.width(), left.height(), |x, y| {
         let (l, r) = (left[(x, y)], right[(x, y)]);
         let six = [l[0], l[1], l[2], r[0], r[1], r[2]].map(|c| linear[usize::from(c)]);
         let [red, green, blue] = glasses
             .0
-            .map(|row| encode(row.iter().zip(six).map(|(w, c)| w * c).sum()));
+            .map(|row| encoder.encode(row.iter().zip(six).map(|(w, c)| w * c).sum()));
         [red, green, blue, 255]
     })
 }

@@ -61,8 +61,8 @@ impl Leap {
 
 /// Where depth leaps within the regions of `labels`.
 pub(super) fn leaping(rho: &Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Grid<bool> {
-    let low = window(rho, f32::min);
-    let high = window(rho, f32::max);
+    let low = window(rho, Extreme::Least);
+    let high = window(rho, Extreme::Greatest);
     Grid::from_fn(rho.width(), rho.height(), |x, y| {
         let at = (x, y);
         // Over all regions first, which is quick and never misses one.
@@ -191,26 +191,67 @@ pub(super) fn neighbourhood<const N: usize>(
     })
 }
 
-/// The least or greatest value within [`REACH`] of each pixel.
-pub(super) fn window<T: Copy>(grid: &Grid<T>, choose: impl Fn(T, T) -> T) -> Grid<T> {
+/// The least or greatest value within [`REACH`] of each pixel, of values that are all numbers. Windows are doubled: of 2
+/// pixels, of 4, of 8, and two of those that overlap are the 11.
+pub(super) fn window<T: Copy + PartialOrd>(grid: &Grid<T>, extreme: Extreme) -> Grid<T> {
+    // Two loops, for each to be of plain minima or maxima.
+    match extreme {
+        Extreme::Least => windowed(grid, |a, b| if b < a { b } else { a }),
+        Extreme::Greatest => windowed(grid, |a, b| if b > a { b } else { a }),
+    }
+}
+
+/// Which of several values.
+#[derive(Clone, Copy)]
+pub(super) enum Extreme {
+    Least,
+    Greatest,
+}
+
+/// Columns of both sides of a window, itself included, and what two windows of 8 pixels are apart that make it up.
+const WINDOW: usize = 2 * REACH + 1;
+const OVERLAPPING: usize = WINDOW - 8;
+
+#[inline(always)]
+fn windowed<T: Copy>(grid: &Grid<T>, choose: impl Fn(T, T) -> T + Copy) -> Grid<T> {
     let (width, height) = (grid.width(), grid.height());
-    let into = |row: &mut [T], others: &[T]| {
-        for (value, other) in row.iter_mut().zip(others) {
-            *value = choose(*value, *other);
-        }
-    };
-    let mut across = grid.clone();
+    let mut out = grid.clone();
+    let mut padded = vec![grid.data()[0]; width + 2 * REACH];
     for y in 0..height {
-        let row = across.row_mut(y);
-        for shift in 1..=REACH.min(width - 1) {
-            into(row, &grid.row(y)[shift..]);
-            into(&mut row[shift..], grid.row(y));
+        let row = out.row_mut(y);
+        padded[..REACH].fill(row[0]);
+        padded[REACH..REACH + width].copy_from_slice(row);
+        padded[REACH + width..].fill(row[width - 1]);
+        for apart in [1, 2, 4] {
+            // From the start on, so that what is read is not written yet.
+            for i in 0..padded.len() - apart {
+                padded[i] = choose(padded[i], padded[i + apart]);
+            }
+        }
+        let pairs = padded[..width].iter().zip(&padded[OVERLAPPING..]);
+        for (value, (&a, &b)) in row.iter_mut().zip(pairs) {
+            *value = choose(a, b);
         }
     }
-    let mut out = across.clone();
+    // Rows the same way, the first and the last repeated.
+    let rows = height + 2 * REACH;
+    let mut ladder: Vec<T> = Vec::with_capacity(rows * width);
+    for y in 0..rows {
+        ladder.extend_from_slice(out.row(y.saturating_sub(REACH).min(height - 1)));
+    }
+    for apart in [1, 2, 4] {
+        for y in 0..rows - apart {
+            let (here, below) = ladder[y * width..].split_at_mut(apart * width);
+            for (value, &other) in here[..width].iter_mut().zip(&below[..width]) {
+                *value = choose(*value, other);
+            }
+        }
+    }
     for y in 0..height {
-        for near in y.saturating_sub(REACH)..(y + REACH + 1).min(height) {
-            into(out.row_mut(y), across.row(near));
+        let (first, second) = (&ladder[y * width..], &ladder[(y + OVERLAPPING) * width..]);
+        let pairs = first.iter().zip(second);
+        for (value, (&a, &b)) in out.row_mut(y).iter_mut().zip(pairs) {
+            *value = choose(a, b);
         }
     }
     out

@@ -7,7 +7,7 @@
 //! within each region. Where even G ∗ c is next to nothing, depth is not known. Pixels that stand out singly take their
 //! neighbourhood's median, and what is left is averaged over five by five pixels, never across a leap.
 
-use super::leaps::{Leap, window};
+use super::leaps::{Extreme, Leap, window};
 use crate::frames::blur;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
@@ -71,7 +71,7 @@ pub(super) fn steadied(rho: &mut Grid<f32>, found: &Interpretation, known: &[boo
 
 /// Replaces `rho` by the median of its region within two pixels, where it changes by half a leap nearby.
 pub(super) fn median(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
-    let (low, high) = (window(rho, f32::min), window(rho, f32::max));
+    let (low, high) = (window(rho, Extreme::Least), window(rho, Extreme::Greatest));
     let leap = leap.half();
     let noisy = rho.clone();
     let mut values = Vec::with_capacity(25);
@@ -94,8 +94,8 @@ pub(super) fn median(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
 pub(super) fn mean(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
     let noisy = rho.clone();
     // Where nothing is near that does not count, which is nearly everywhere, nothing need be asked.
-    let (low, high) = (window(rho, f32::min), window(rho, f32::max));
-    let (first, last) = (window(labels, u8::min), window(labels, u8::max));
+    let (low, high) = (window(rho, Extreme::Least), window(rho, Extreme::Greatest));
+    let (first, last) = (window(labels, Extreme::Least), window(labels, Extreme::Greatest));
     for y in 0..rho.height() {
         for x in 0..rho.width() {
             let at = (x, y);
