@@ -108,7 +108,10 @@ mod tests {
     fn looked_up_bytes_are_those_of_the_curve() {
         let encoder = Encoder::new();
         let fine = (0..200_000).map(|i| i as f32 / 190_000.0 - 0.02);
-        let ends = encoder.least.iter().flat_map(|&l| [l.next_down(), l, l.next_up()]);
+        let ends = encoder
+            .least
+            .iter()
+            .flat_map(|&l| [l.next_down(), l, l.next_up()]);
         for light in fine.chain(ends).chain([f32::NAN, f32::INFINITY, -0.0]) {
             assert_eq!(encoder.encode(light), encode(light), "{light}");
         }
