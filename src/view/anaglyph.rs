@@ -138,14 +138,22 @@ impl Glasses {
 pub fn dubois(left: &Grid<[u8; 3]>, right: &Grid<[u8; 3]>, glasses: &Glasses) -> Picture {
     let linear: Vec<f32> = (0..=255).map(decode).collect();
     let encoder = Encoder::new();
-    Grid::from_fn(left.width(), left.height(), |x, y| {
-        let (l, r) = (left[(x, y)], right[(x, y)]);
-        let six = [l[0], l[1], l[2], r[0], r[1], r[2]].map(|c| linear[usize::from(c)]);
-        let [red, green, blue] = glasses
-            .0
-            .map(|row| encoder.encode(row.iter().zip(six).map(|(w, c)| w * c).sum()));
-        [red, green, blue, 255]
-    })
+    let mut out = Grid::new(left.width(), left.height(), [0, 0, 0, 255]);
+    let pixels = left.data().iter().zip(right.data());
+    for (out, (left, right)) in out.data_mut().iter_mut().zip(pixels) {
+        let mut six = [0.0; 6];
+        for (light, &byte) in six.iter_mut().zip(left.iter().chain(right)) {
+            *light = linear[usize::from(byte)];
+        }
+        for (out, weights) in out.iter_mut().zip(&glasses.0) {
+            let mut sum = 0.0;
+            for (weight, light) in weights.iter().zip(&six) {
+                sum += weight * light;
+            }
+            *out = encoder.encode(sum);
+        }
+    }
+    out
 }
 
 /// The anaglyph of the frame and its second eye.

@@ -164,8 +164,10 @@ fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap, cut: Cut, reach: f32) {
         hidden.colours.data_mut()[at] = mirrored(seen, at, source);
         hidden.known.data_mut()[at] = seen.known.data()[source];
         if far < furthest {
-            for next in beside(at, width, height).into_iter().flatten() {
-                take(&mut queue, next, source, far + 1);
+            for next in beside(at, width, height) {
+                if let Some(next) = next {
+                    take(&mut queue, next, source, far + 1);
+                }
             }
         }
     }
@@ -206,7 +208,12 @@ struct Reached {
 
 impl Reached {
     fn of(at: usize, width: usize, height: usize, what: impl Fn(usize) -> Beside) -> Self {
-        let around = beside(at, width, height).map(|next| next.map_or(Beside::Nothing, &what));
+        let mut around = [Beside::Nothing; 4];
+        for (around, next) in around.iter_mut().zip(beside(at, width, height)) {
+            if let Some(next) = next {
+                *around = what(next);
+            }
+        }
         Self { at, around }
     }
 
