@@ -10,17 +10,51 @@ import { text } from "../text/worker";
 import type { Legend, PictureRequest } from "./protocol";
 
 /** Frames with more pixels are drawn smaller. */
-export const MOST_PIXELS = 4e6;
+const MOST_PIXELS = 4e6;
+/** A first picture has no more, so that it is there in a blink; less where both eyes or a relief are made of it. */
+const QUICK_PIXELS = 1.2e6;
+const QUICK_SURFACE = 6e5;
+const SURFACES = ["anaglyph", "stereo"];
 const ERROR = "error-";
 
 type Found = Solver | Kept;
+
+/** How large something is drawn, as the core's `pixels`. */
+export interface Size {
+  pixels: number;
+  /** Whether a screen could show more. */
+  blunt: boolean;
+}
+
+/**
+ * The size of a picture of frames with those sides: as large as a screen can use that shows it `longest` pixels long, or as
+ * one that must be quick may be.
+ */
+export function sizeOf(
+  { width, height }: { width: number; height: number },
+  kind: string,
+  longest: number,
+  quick: boolean,
+): Size {
+  // By a whole number, as the core shrinks them, and no smaller than the screen.
+  const factor = Math.max(1, Math.floor(Math.max(width, height) / longest));
+  const pixels = Math.min(MOST_PIXELS, Math.ceil((width * height) / factor ** 2));
+  const least = SURFACES.includes(kind) ? QUICK_SURFACE : QUICK_PIXELS;
+  const blunt = quick && !kind.startsWith(ERROR) && Math.min(pixels, width * height) > least;
+  return { pixels: blunt ? least : pixels, blunt };
+}
+
+/** The relief's size: its vertices are fewer still. */
+export const MESH_PIXELS = QUICK_SURFACE;
+/** The same to be taken away. */
+export const FILE_PIXELS = MOST_PIXELS;
 
 /** At the frame's size where `pixels` is null. */
 export function drawn(
   owned: Owned,
   found: Found,
   request: PictureRequest,
-  pixels: number | null = MOST_PIXELS,
+  pixels: number | null,
 ): Picture {
   const { of, kind, compared } = request;
   const { truth } = owned;
@@ -35,14 +69,20 @@ export function drawn(
     : measured(owned, found, of).view(kind, params);
 }
 
-export function legendOf(owned: Owned, found: Found, request: PictureRequest): Legend | null {
+/** What the colours of such a picture stand for. */
+export function legendOf(
+  owned: Owned,
+  found: Found,
+  request: PictureRequest,
+  pixels: number,
+): Legend | null {
   const { of, kind } = request;
   if (kind.startsWith(ERROR)) {
     const params = JSON.stringify(request.params);
     const drawer = measured(owned, found, of);
     return JSON.parse(drawer.errorLegend(kind.slice(ERROR.length), params, known(owned)));
   }
-  const params = colours(owned, request, request.params);
+  const params = colours(owned, request, { ...request.params, pixels });
   const drawer = of === "truth" ? known(owned) : measured(owned, found, of);
   return JSON.parse(drawer.legend(kind, params)) as Legend | null;
 }
