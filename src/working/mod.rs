@@ -19,7 +19,6 @@ use crate::curves::Shape;
 use crate::error::Error;
 use crate::frames::{Frame, FramePair, least_factor, shrunk_camera};
 use crate::grid::Grid;
-use crate::interpretation::Interpretation;
 use crate::options::{Detail, MAX_CURVES};
 
 /// The shorter side of frames that are worked on has at least so many pixels, where the frames do.
@@ -90,25 +89,4 @@ pub(crate) fn factor_to_draw(frame: &Frame, worked: usize, pixels: usize) -> usi
         .chain((step..=most).step_by(step))
         .find(|n| all / (n * n) <= pixels)
         .unwrap_or(most)
-}
-
-/// Two frames and what was found of them, shrunk alike, to be drawn.
-pub(crate) struct Shrunk {
-    /// How many times.
-    pub factor: usize,
-    /// The frames.
-    pub pair: Rc<FramePair>,
-    /// What was found, as if of them.
-    pub found: Rc<Interpretation>,
-}
-
-impl Shrunk {
-    /// `pair` and what was `found` of it shrunk `factor` times, which [`factor_to_draw`] gives.
-    pub fn of(pair: &FramePair, found: &Interpretation, factor: usize) -> Self {
-        Self {
-            factor,
-            pair: Rc::new(pair.shrunk(factor)),
-            found: Rc::new(found.shrunk(factor)),
-        }
-    }
 }

@@ -5,13 +5,12 @@ use std::rc::Rc;
 
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use super::shown::{Drawn, Shown, drawn_of};
+use super::shown::{Drawn, Shown, Shrunk, drawn_of};
 use super::{Frame, Json, Picture, Word};
 use crate::error::Error;
 use crate::frames::FramePair;
 use crate::horn_schunck::interpreted;
 use crate::interpretation::Interpretation;
-use crate::working::Shrunk;
 
 /// What Horn–Schunck makes of two frames.
 #[wasm_bindgen]

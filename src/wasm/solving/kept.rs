@@ -9,7 +9,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::files::{self, listed};
 use super::found::PICTURES;
-use super::shown::{Drawn, Shown, drawn_of};
+use super::shown::{Drawn, Shown, Shrunk, drawn_of};
 use super::{Frame, Json, Mesh, Picture, Solver, Word, write};
 use crate::curves::{Contour, differing};
 use crate::error::Error;
@@ -21,7 +21,6 @@ use crate::interpretation::Interpretation;
 use crate::motion_model::MotionModel;
 use crate::probe::probe;
 use crate::view::ViewParams;
-use crate::working::Shrunk;
 
 /// What is taken from a `Contour`.
 #[derive(Deserialize)]

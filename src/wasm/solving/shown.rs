@@ -14,7 +14,7 @@ use crate::frames::{Frame, FramePair};
 use crate::interpretation::Interpretation;
 use crate::score::{self, PartScores};
 use crate::view::{self, Legend, Mesh, ViewParams};
-use crate::working::{Shrunk, factor_to_draw};
+use crate::working::factor_to_draw;
 
 /// The view that takes both frames.
 pub(super) const RESIDUAL: &str = "residual";
@@ -164,4 +164,25 @@ pub(super) fn drawn_of(
     }
     let Shrunk { pair, found, .. } = last.as_ref().expect("it has just been made");
     Drawn::of(n, pair.clone(), found.clone(), params.clone())
+}
+
+/// Two frames and what was found of them, shrunk alike, to be drawn.
+pub(super) struct Shrunk {
+    /// How many times.
+    pub factor: usize,
+    /// The frames.
+    pub pair: Rc<FramePair>,
+    /// What was found, as if of them.
+    pub found: Rc<Interpretation>,
+}
+
+impl Shrunk {
+    /// `pair` and what was `found` of it shrunk `factor` times, which [`factor_to_draw`] gives.
+    pub fn of(pair: &FramePair, found: &Interpretation, factor: usize) -> Self {
+        Self {
+            factor,
+            pair: Rc::new(pair.shrunk(factor)),
+            found: Rc::new(found.shrunk(factor)),
+        }
+    }
 }
