@@ -25,7 +25,7 @@ use crate::camera::Camera;
 use crate::curves::{Contour, Shape, contours, differing, smoothed};
 use crate::energy::Energy;
 use crate::error::Error;
-use crate::frames::{Frame, FramePair, shrunk_camera};
+use crate::frames::{Frame, FramePair, shrunk_camera, shrunk_colours};
 use crate::grid::Grid;
 use crate::interpretation::{Interpretation, Pixel};
 use crate::layered::Layered;
@@ -69,6 +69,8 @@ pub struct Solver {
     working: Working,
     /// The frames last shown smaller than they are, and how many times.
     shown: RefCell<Option<(usize, Rc<FramePair>)>>,
+    /// The first frame's colours where outlines are told.
+    outlined: RefCell<Option<Grid<[u8; 3]>>>,
     shapes: Vec<Shape>,
     options: Options,
     approach: Box<dyn Approach>,
@@ -104,6 +106,7 @@ impl Solver {
             camera,
             working,
             shown: RefCell::default(),
+            outlined: RefCell::default(),
             shapes: shapes.to_vec(),
             options,
             status: Status::Running,
@@ -162,6 +165,7 @@ impl Solver {
         self.pair = Rc::new(pair);
         self.working = Working::new(&self.pair, &self.camera, self.options.detail);
         self.shown.take();
+        self.outlined.take();
         self.approach
             .advance(self.working.pair.clone(), &self.options);
         self.history.draw();
@@ -273,6 +277,7 @@ impl Solver {
 
     /// Back to the start: the curves as drawn last, the same depth everywhere, nothing moving.
     pub fn reset(&mut self) {
+        self.outlined.take();
         self.working = Working::new(&self.pair, &self.camera, self.options.detail);
         let level_sets = self.working.level_sets(&self.shapes, &self.pair);
         let level_sets = level_sets.unwrap_or_default();
@@ -373,21 +378,38 @@ impl Solver {
     /// The curves as sub-pixel polylines, in the order of their labels.
     pub fn contours(&self) -> Vec<Contour> {
         if self.working.factor > 1 {
-            return self.outlines();
+            return self.outlines(&self.worked());
         }
+        self.zeros()
+    }
+
+    /// The same where [`Solver::worked`] gave `worked`.
+    pub fn contours_of(&self, worked: &Interpretation) -> Vec<Contour> {
+        if self.working.factor > 1 {
+            self.outlines(worked)
+        } else {
+            self.zeros()
+        }
+    }
+
+    /// Where level sets are 0.
+    fn zeros(&self) -> Vec<Contour> {
         let level_sets = self.approach.level_sets();
         let numbered = level_sets.iter().zip(1..);
         numbered.flat_map(|(phi, k)| contours(phi, k)).collect()
     }
 
     /// The outlines of labels that were brought back to the frames, at [`OUTLINED`] pixels at most.
-    fn outlines(&self) -> Vec<Contour> {
+    fn outlines(&self, worked: &Interpretation) -> Vec<Contour> {
         let n = self.shrunk_for(OUTLINED).min(self.working.factor);
-        let worked = self.worked();
         let labels = if n == self.working.factor {
             worked.labels.clone()
         } else {
-            self.upsampling(&worked, &self.frames_shrunk(n), n).labels()
+            let small = &self.working.pair.first().rgb;
+            let ratio = self.working.factor as f32 / n as f32;
+            let mut shrunk = self.outlined.borrow_mut();
+            let large = shrunk.get_or_insert_with(|| shrunk_colours(&self.pair.first().rgb, n));
+            Upsampling::new(worked, small, large, ratio).labels()
         };
         let (width, height) = (labels.width(), labels.height());
         let regions = worked.regions() as u8;

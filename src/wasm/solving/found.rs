@@ -161,7 +161,7 @@ impl Solver {
     }
 
     fn curves(&self) -> &[Contour] {
-        self.curves.get_or_init(|| self.solver().contours())
+        (self.curves).get_or_init(|| self.solver().contours_of(self.worked()))
     }
 
     fn worked(&self) -> &Rc<Interpretation> {
