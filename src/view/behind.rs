@@ -164,10 +164,8 @@ fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap, cut: Cut, reach: f32) {
         hidden.colours.data_mut()[at] = mirrored(seen, at, source);
         hidden.known.data_mut()[at] = seen.known.data()[source];
         if far < furthest {
-            for next in beside(at, width, height) {
-                if let Some(next) = next {
-                    take(&mut queue, next, source, far + 1);
-                }
+            for next in beside(at, width, height).into_iter().flatten() {
+                take(&mut queue, next, source, far + 1);
             }
         }
     }

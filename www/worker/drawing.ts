@@ -15,6 +15,8 @@ const MOST_PIXELS = 4e6;
 const QUICK_PIXELS = 1.2e6;
 const QUICK_SURFACE = 6e5;
 const SURFACES = ["anaglyph", "stereo"];
+/** A picture may be by an eighth smaller than the screen, or less. */
+const SMALLER = 0.25;
 const ERROR = "error-";
 
 type Found = Solver | Kept;
@@ -36,8 +38,8 @@ export function sizeOf(
   longest: number,
   quick: boolean,
 ): Size {
-  // By a whole number, as the core shrinks them, and no smaller than the screen.
-  const factor = Math.max(1, Math.floor(Math.max(width, height) / longest));
+  // By a whole number, as the core shrinks them, and hardly smaller than the screen.
+  const factor = Math.max(1, Math.floor(Math.max(width, height) / longest + SMALLER));
   const pixels = Math.min(MOST_PIXELS, Math.ceil((width * height) / factor ** 2));
   const least = SURFACES.includes(kind) ? QUICK_SURFACE : QUICK_PIXELS;
   const blunt = quick && !kind.startsWith(ERROR) && Math.min(pixels, width * height) > least;

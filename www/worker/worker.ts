@@ -28,7 +28,7 @@ const LONG_MS = 150;
 const MESH_INTERVAL_MS = 400;
 
 /** So long the page is left in peace before it gets pictures as sharp as its screen in the place of quick ones. */
-const SHARPEN_MS = 60;
+const SHARPEN_MS = 250;
 
 const engine = new Engine();
 const ready = load();
