@@ -8,7 +8,7 @@
 import { text } from "../text/worker";
 import { decode, findCurves, findFocal, Kept, type Solver } from "./core";
 import { carriedOn } from "./carried";
-import { drawn, FILE_PIXELS, legendOf, MESH_PIXELS, sizeOf } from "./drawing";
+import { drawn, legendOf } from "./drawing";
 import { squeeze, unsqueeze } from "./keeping";
 import {
   build,
@@ -24,6 +24,7 @@ import {
   interlacedOf,
 } from "./owned";
 import { bitmap } from "./pictures";
+import { FILE_PIXELS, MESH_PIXELS, sizeOf } from "./size";
 import { goOnFrom } from "./standing";
 import type {
   Begun,
