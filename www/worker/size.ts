@@ -2,10 +2,8 @@
 
 /** Frames with more pixels are drawn smaller. */
 const MOST_PIXELS = 4e6;
-/** A first picture has no more, so that it is there in a blink; less where both eyes or a relief are made of it. */
-const QUICK_PIXELS = 1.2e6;
-const QUICK_SURFACE = 6e5;
-const SURFACES = ["anaglyph", "stereo"];
+/** A first picture has no more, so that it is there in a blink: about as many as *Detail* works on by default. */
+const QUICK_PIXELS = 6e5;
 /** A picture may be by an eighth smaller than the screen, or less. */
 const SMALLER = 0.25;
 /** Maps of errors are drawn at the frames' size, since what is seen is what is counted. */
@@ -31,12 +29,11 @@ export function sizeOf(
   // By a whole number, as the core shrinks them, and hardly smaller than the screen.
   const factor = Math.max(1, Math.floor(Math.max(width, height) / longest + SMALLER));
   const pixels = Math.min(MOST_PIXELS, Math.ceil((width * height) / factor ** 2));
-  const least = SURFACES.includes(kind) ? QUICK_SURFACE : QUICK_PIXELS;
-  const blunt = quick && !kind.startsWith(ERROR) && Math.min(pixels, width * height) > least;
-  return { pixels: blunt ? least : pixels, blunt };
+  const blunt = quick && !kind.startsWith(ERROR) && Math.min(pixels, width * height) > QUICK_PIXELS;
+  return { pixels: blunt ? QUICK_PIXELS : pixels, blunt };
 }
 
 /** The relief's size: its vertices are fewer still. */
-export const MESH_PIXELS = QUICK_SURFACE;
+export const MESH_PIXELS = QUICK_PIXELS;
 /** The same to be taken away. */
 export const FILE_PIXELS = MOST_PIXELS;
