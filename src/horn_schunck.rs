@@ -21,7 +21,7 @@ use crate::frames::FramePair;
 use crate::grid::Grid;
 use crate::interpretation::{Flow, Interpretation};
 use crate::options::Detail;
-use crate::working::{factor, upsampled};
+use crate::working::{Upsampling, factor};
 
 /// A smoothness weight for ordinary film, in grey levels per pixel.
 pub const ALPHA: f32 = 10.0;
@@ -53,7 +53,7 @@ pub fn interpreted(pair: &FramePair) -> Result<Interpretation, Error> {
         let found = interpreted(&small)?;
         let colours = [&small, pair].map(|pair| &pair.first().rgb);
         let camera = Camera::centred(width as f64, width, height)?;
-        return Ok(upsampled(&found, colours[0], colours[1], n as f32, camera));
+        return Ok(Upsampling::new(&found, colours[0], colours[1], n as f32).whole(camera));
     }
     Ok(Interpretation {
         camera: Camera::centred(width as f64, width, height)?,

@@ -4,8 +4,10 @@
 //! from one, and scores compare two.
 
 use crate::camera::{Camera, RigidMotion};
+use crate::frames::shrunk_camera;
 use crate::grid::Grid;
 use crate::motion_model::MotionModel;
+use crate::working::downsampled;
 
 /// Least and greatest depth that is told, in units in which a region's mean 1/Z is 1.
 pub const NEAREST_FARTHEST: [f32; 2] = [0.02, 50.0];
@@ -63,7 +65,36 @@ pub struct Interpretation {
     pub motions: Vec<RigidMotion>,
 }
 
+/// What an [`Interpretation`] has at one pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pixel {
+    /// Whose it is.
+    pub label: u8,
+    /// Z.
+    pub depth: f32,
+    /// Motion to the right, pixels per frame.
+    pub u: f32,
+    /// Motion downwards, pixels per frame.
+    pub v: f32,
+    /// How far depth is observable, 0–1.
+    pub confidence: f32,
+    /// Whether it is hidden in the second frame.
+    pub occluded: bool,
+}
+
 impl Interpretation {
+    /// What it has at a pixel of the frame.
+    pub fn pixel(&self, at: (usize, usize)) -> Pixel {
+        Pixel {
+            label: self.labels[at],
+            depth: self.depth[at],
+            u: self.flow.u[at],
+            v: self.flow.v[at],
+            confidence: self.confidence[at],
+            occluded: self.occluded[at] != 0,
+        }
+    }
+
     /// Number of regions, the background included.
     pub fn regions(&self) -> usize {
         self.motions.len()
@@ -90,6 +121,13 @@ impl Interpretation {
             MotionModel::seen(&self.camera, &scaled)
         })
         .collect()
+    }
+
+    /// The same of the frames shrunk `factor` times.
+    pub fn shrunk(&self, factor: usize) -> Self {
+        let size = (self.labels.width() / factor, self.labels.height() / factor);
+        let camera = shrunk_camera(&self.camera, factor);
+        downsampled(self, size, factor as f32, camera)
     }
 
     /// The same with region k's depth multiplied by `factors[k]` (1 where `factors` is too short) and

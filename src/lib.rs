@@ -104,7 +104,7 @@ pub use frames::{Frame, FramePair};
 /// The vectors of [`RigidMotion`] are its.
 pub use glam;
 pub use grid::Grid;
-pub use interpretation::{Flow, Interpretation};
+pub use interpretation::{Flow, Interpretation, Pixel};
 pub use motion_model::MotionModel;
 pub use options::Options;
 pub use solver::{Solver, Status};

@@ -10,7 +10,7 @@
 use serde::Serialize;
 
 use crate::frames::FramePair;
-use crate::interpretation::Interpretation;
+use crate::interpretation::{Interpretation, Pixel};
 
 /// One pixel of an interpretation. What is not known is not a number, and `null` in JSON.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -49,30 +49,34 @@ pub fn probe(
     scales: &[f64],
     (x, y): (usize, usize),
 ) -> Option<Probe> {
-    if x >= found.labels.width() || y >= found.labels.height() {
-        return None;
-    }
-    let at = (x, y);
-    let label = found.labels[at];
-    let scale = scales.get(usize::from(label)).copied().unwrap_or(1.0);
-    let (u, v) = (found.flow.u[at], found.flow.v[at]);
-    Some(Probe {
+    let inside = x < found.labels.width() && y < found.labels.height();
+    inside.then(|| probe_of(pair, found.pixel((x, y)), scales, (x, y)))
+}
+
+/// The same where `pixel` is what was found at `(x, y)`, which lies in the frame.
+pub fn probe_of(pair: &FramePair, pixel: Pixel, scales: &[f64], (x, y): (usize, usize)) -> Probe {
+    let scale = scales.get(usize::from(pixel.label)).copied().unwrap_or(1.0);
+    let Pixel { u, v, .. } = pixel;
+    Probe {
         x,
         y,
-        label,
-        depth: found.depth[at] * scale as f32,
-        confidence: found.confidence[at],
+        label: pixel.label,
+        depth: pixel.depth * scale as f32,
+        confidence: pixel.confidence,
         u,
         v,
         speed: u.hypot(v),
-        psi: residual(pair, found, at),
-        occluded: found.occluded[at] != 0,
-    })
+        psi: residual_of(pair, [u, v], (x, y)),
+        occluded: pixel.occluded,
+    }
 }
 
 /// ψ at a pixel of the frame; not a number where no motion is known.
 pub(crate) fn residual(pair: &FramePair, found: &Interpretation, at: (usize, usize)) -> f32 {
-    let (u, v) = (found.flow.u[at], found.flow.v[at]);
+    residual_of(pair, [found.flow.u[at], found.flow.v[at]], at)
+}
+
+fn residual_of(pair: &FramePair, [u, v]: [f32; 2], at: (usize, usize)) -> f32 {
     if !(u.is_finite() && v.is_finite()) {
         return f32::NAN;
     }

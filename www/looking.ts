@@ -28,12 +28,25 @@ export function lookThrough(ask: Ask): void {
   askSolver = ask;
 }
 
-export const viewer = new Viewer((message) => {
-  // A solver in a pass draws it all the same, only later.
-  if (!store.state.visit) return;
-  void visit(null);
-  store.update({ message: sentence(message) });
-});
+export const viewer = new Viewer(
+  (message) => {
+    // A solver in a pass draws it all the same, only later.
+    if (!store.state.visit) return;
+    void visit(null);
+    store.update({ message: sentence(message) });
+  },
+  (progress) => {
+    const { pictures, legends, view } = progress;
+    // What is chosen by now is on its way.
+    const wanted = (slow || store.state.visit) && view === store.state.pictured;
+    if (!wanted) return pictures.forEach((one) => one?.close());
+    const kept = <T>(all: (T | null)[], last: (T | null)[]) =>
+      all.map((one, i) => one ?? last[i] ?? null);
+    const sharp = kept(pictures, store.state.pictures);
+    for (const [i, old] of store.state.pictures.entries()) if (old !== sharp[i]) old?.close();
+    store.update({ pictures: sharp, legends: kept(legends, store.state.legends) });
+  },
+);
 
 /** The last pass of a solver whose passes take long, for the viewer to draw meanwhile. */
 let slow: Standing | null = null;

@@ -28,15 +28,23 @@ export class Viewer {
   private next: Sight | null = null;
   private working = false;
   private asked = 0;
+  private answered = 0;
   private answer: (progress: Progress | null) => void = () => {};
   private idle: ReturnType<typeof setTimeout> | undefined;
 
-  /** `failed` hears why something could not be drawn. */
-  constructor(private readonly failed: (message: string) => void) {
+  /** `failed` hears why something could not be drawn, and `sharper` of sharper pictures of what was drawn last. */
+  constructor(
+    private readonly failed: (message: string) => void,
+    private readonly sharper: (progress: Progress) => void,
+  ) {
     this.client = new Client("viewer", {
       progress: async (progress) => {
-        if (progress.id === this.asked) this.answer(progress);
-        else progress.pictures.forEach((picture) => picture?.close());
+        if (progress.id !== this.asked) progress.pictures.forEach((picture) => picture?.close());
+        else if (this.answered === this.asked) this.sharper(progress);
+        else {
+          this.answered = this.asked;
+          this.answer(progress);
+        }
       },
       failure: () => this.end(),
     });

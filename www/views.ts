@@ -219,6 +219,9 @@ const WIRES = 100;
 /** Frames up to this width are drawn on at twice their resolution. */
 const FINE_WIDTH = 800;
 
+/** Pictures are drawn no smaller than that along their longer side. */
+const LEAST_SIDE = 512;
+
 export const viewOf = (id: string): View => VIEWS.find((view) => view.id === id) ?? VIEWS[0]!;
 
 /** The views that the core can draw and that make sense for what is open. */
@@ -260,7 +263,7 @@ export function wantedBy(state: Readonly<State>): Omit<Wanted, "id"> {
       params: { ...params, most: state.ranges.most[kind] ?? null },
       compared: comparing(state),
     })),
-    longest: screenSide(),
+    longest: screenSide() * zoomStep(state),
     mesh: state.view === "relief" ? { ...params, step: stepOf(state) } : null,
   };
 }
@@ -274,7 +277,14 @@ function stepOf({ viewParams, width, height }: Readonly<State>): number | null {
 function screenSide(): number {
   const { clientWidth, clientHeight } = byId("stage");
   const side = Math.max(clientWidth, clientHeight) * (window.devicePixelRatio || 1);
-  return Math.max(512, 256 * Math.ceil(side / 256));
+  return Math.max(LEAST_SIDE, 256 * Math.ceil(side / 256));
+}
+
+/** How many times larger than it fits a picture is to be drawn, in steps so that few zooms ask for a new one. */
+export function zoomStep({ zoom, width, height }: Readonly<State>): number {
+  if (zoom.factor <= 1) return 1;
+  const needed = Math.max(width, height) / screenSide();
+  return 2 ** Math.ceil(Math.log2(Math.max(1, Math.min(zoom.factor, needed))));
 }
 
 /** Whether what is found must have the truth's colours. */

@@ -52,7 +52,7 @@ pub(crate) use samples::frame_of_rows;
     any(feature = "javascript", feature = "javascript-decoders")
 ))]
 pub(crate) use samples::{Raw, Sample};
-pub(crate) use shrink::shrunk_camera;
+pub(crate) use shrink::{shrunk_camera, shrunk_colours};
 pub(crate) use spline::{LANES, Spline};
 #[cfg(all(target_arch = "wasm32", feature = "javascript-decoders"))]
 pub(crate) use unpack::check_length;

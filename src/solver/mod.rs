@@ -25,14 +25,14 @@ use crate::camera::Camera;
 use crate::curves::{Contour, Shape, contours, differing, smoothed};
 use crate::energy::Energy;
 use crate::error::Error;
-use crate::frames::{Frame, FramePair, shrunk_camera};
+use crate::frames::{Frame, FramePair, shrunk_camera, shrunk_colours};
 use crate::grid::Grid;
-use crate::interpretation::Interpretation;
+use crate::interpretation::{Interpretation, Pixel};
 use crate::layered::Layered;
 use crate::options::{Options, Preset};
 use crate::paper::Paper;
 use crate::window::Window;
-use crate::working::{Working, upsampled};
+use crate::working::{Upsampling, Working, downsampled, factor_to_draw};
 
 /// Finds regions, motions and depth of a pair of frames.
 ///
@@ -69,6 +69,8 @@ pub struct Solver {
     working: Working,
     /// The frames last shown smaller than they are, and how many times.
     shown: RefCell<Option<(usize, Rc<FramePair>)>>,
+    /// The first frame's colours where outlines are told.
+    outlined: RefCell<Option<Grid<[u8; 3]>>>,
     shapes: Vec<Shape>,
     options: Options,
     approach: Box<dyn Approach>,
@@ -104,6 +106,7 @@ impl Solver {
             camera,
             working,
             shown: RefCell::default(),
+            outlined: RefCell::default(),
             shapes: shapes.to_vec(),
             options,
             status: Status::Running,
@@ -162,6 +165,7 @@ impl Solver {
         self.pair = Rc::new(pair);
         self.working = Working::new(&self.pair, &self.camera, self.options.detail);
         self.shown.take();
+        self.outlined.take();
         self.approach
             .advance(self.working.pair.clone(), &self.options);
         self.history.draw();
@@ -273,6 +277,7 @@ impl Solver {
 
     /// Back to the start: the curves as drawn last, the same depth everywhere, nothing moving.
     pub fn reset(&mut self) {
+        self.outlined.take();
         self.working = Working::new(&self.pair, &self.camera, self.options.detail);
         let level_sets = self.working.level_sets(&self.shapes, &self.pair);
         let level_sets = level_sets.unwrap_or_default();
@@ -289,24 +294,60 @@ impl Solver {
 
     /// The same on the frames shrunk `n` times, which [`Solver::shrunk_for`] gives.
     pub fn interpretation_shrunk(&self, n: usize) -> Interpretation {
+        let found = self.worked();
+        if n == self.working.factor {
+            return found;
+        }
+        self.resized(&found, n)
+    }
+
+    /// The same as it is worked on. Those at other sizes are made of it.
+    pub fn worked(&self) -> Interpretation {
         let mut found = self.approach.interpretation(&self.options);
         if let Some(absent) = self.working.pair.absent() {
             let confidence = found.confidence.data_mut().iter_mut();
             let gone = confidence.zip(absent.data()).filter(|(_, a)| **a != 0);
             gone.for_each(|(c, _)| *c = 0.0);
         }
+        found
+    }
+
+    /// How many times frames are shrunk for the work.
+    pub fn worked_shrunk(&self) -> usize {
+        self.working.factor
+    }
+
+    /// What [`Solver::worked`] gave, on the frames shrunk `n` times, which [`Solver::shrunk_for`] gives.
+    pub fn resized(&self, worked: &Interpretation, n: usize) -> Interpretation {
+        let camera = shrunk_camera(&self.camera, n);
         let factor = self.working.factor;
-        if n == factor {
-            return found;
+        if n < factor {
+            let large = self.frames_shrunk(n);
+            return self.upsampling(worked, &large, n).whole(camera);
         }
-        let guide = self.frames_shrunk(n);
-        upsampled(
-            &found,
-            &self.working.pair.first().rgb,
-            &guide.first().rgb,
-            factor as f32 / n as f32,
-            shrunk_camera(&self.camera, n),
-        )
+        let size = (self.pair.width() / n, self.pair.height() / n);
+        downsampled(worked, size, n as f32 / factor as f32, camera)
+    }
+
+    /// What [`Solver::worked`] gave, at one pixel of the frame.
+    pub fn pixel(&self, worked: &Interpretation, at: (usize, usize)) -> Pixel {
+        if self.working.factor == 1 {
+            worked.pixel(at)
+        } else {
+            self.upsampling(worked, &self.pair, 1).pixel(at)
+        }
+    }
+
+    /// For frames that are shrunk `n` times, less than for the work.
+    fn upsampling<'a>(
+        &'a self,
+        worked: &'a Interpretation,
+        large: &'a FramePair,
+        n: usize,
+    ) -> Upsampling<'a> {
+        let small = &self.working.pair.first().rgb;
+        let ratio = self.working.factor as f32 / n as f32;
+        Upsampling::new(worked, small, &large.first().rgb, ratio)
     }
 
     /// The frames shrunk `n` times, which [`Solver::shrunk_for`] gives.
@@ -328,43 +369,59 @@ impl Solver {
         }
     }
 
-    /// The least number by which frames can be shrunk so that they have at most `pixels`; never more than they are for
-    /// the work.
+    /// The least number by which frames can be shrunk so that they have at most `pixels`; never more than leaves 64 pixels of
+    /// their shorter side, or than they are for the work.
     pub fn shrunk_for(&self, pixels: usize) -> usize {
-        let step = self.pair.first().grey_factor();
-        let fits = |n: &usize| self.pair.first().rgb.len() / (n * n) <= pixels;
-        let most = self.working.factor;
-        std::iter::once(1)
-            .chain((step..most).step_by(step))
-            .find(fits)
-            .unwrap_or(most)
+        factor_to_draw(self.pair.first(), self.working.factor, pixels)
     }
 
     /// The curves as sub-pixel polylines, in the order of their labels.
     pub fn contours(&self) -> Vec<Contour> {
         if self.working.factor > 1 {
-            return self.outlines();
+            return self.outlines(&self.worked());
         }
+        self.zeros()
+    }
+
+    /// The same where [`Solver::worked`] gave `worked`.
+    pub fn contours_of(&self, worked: &Interpretation) -> Vec<Contour> {
+        if self.working.factor > 1 {
+            self.outlines(worked)
+        } else {
+            self.zeros()
+        }
+    }
+
+    /// Where level sets are 0.
+    fn zeros(&self) -> Vec<Contour> {
         let level_sets = self.approach.level_sets();
         let numbered = level_sets.iter().zip(1..);
         numbered.flat_map(|(phi, k)| contours(phi, k)).collect()
     }
 
     /// The outlines of labels that were brought back to the frames, at [`OUTLINED`] pixels at most.
-    fn outlines(&self) -> Vec<Contour> {
-        let n = self.shrunk_for(OUTLINED);
-        let found = self.interpretation_shrunk(n);
-        let (width, height) = (found.labels.width(), found.labels.height());
-        let regions = found.regions() as u8;
+    fn outlines(&self, worked: &Interpretation) -> Vec<Contour> {
+        let n = self.shrunk_for(OUTLINED).min(self.working.factor);
+        let labels = if n == self.working.factor {
+            worked.labels.clone()
+        } else {
+            let small = &self.working.pair.first().rgb;
+            let ratio = self.working.factor as f32 / n as f32;
+            let mut shrunk = self.outlined.borrow_mut();
+            let large = shrunk.get_or_insert_with(|| shrunk_colours(&self.pair.first().rgb, n));
+            Upsampling::new(worked, small, large, ratio).labels()
+        };
+        let (width, height) = (labels.width(), labels.height());
+        let regions = worked.regions() as u8;
         let outlines = |k: u8| {
-            let own = |i: usize| found.labels.data()[i] == k;
+            let own = |i: usize| labels.data()[i] == k;
             let window = Window::around(width, height, own)?;
             // With a margin, so that an outline ends at the window's border only where the frame does.
             let (left, top) = (window.left.saturating_sub(3), window.top.saturating_sub(3));
             let right = (window.left + window.width + 3).min(width);
             let bottom = (window.top + window.height + 3).min(height);
             let inside = Grid::from_fn(right - left, bottom - top, |x, y| {
-                found.labels[(left + x, top + y)] == k
+                labels[(left + x, top + y)] == k
             });
             let place = move |mut c: Contour| {
                 for p in &mut c.points {

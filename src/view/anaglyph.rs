@@ -6,7 +6,7 @@
 //! the sets that he published from 2009 on. Weights of a channel that is used sum to 1, so that what both eyes see alike
 //! keeps its brightness. Luminance is that of Rec. 709.
 
-use super::colour::{decode, encode};
+use super::colour::{Encoder, decode};
 use super::params::{Choice, choose};
 use super::stereo::pair;
 use super::{Picture, ViewParams};
@@ -137,14 +137,23 @@ impl Glasses {
 /// The anaglyph of two sRGB pictures of the same size.
 pub fn dubois(left: &Grid<[u8; 3]>, right: &Grid<[u8; 3]>, glasses: &Glasses) -> Picture {
     let linear: Vec<f32> = (0..=255).map(decode).collect();
-    Grid::from_fn(left.width(), left.height(), |x, y| {
-        let (l, r) = (left[(x, y)], right[(x, y)]);
-        let six = [l[0], l[1], l[2], r[0], r[1], r[2]].map(|c| linear[usize::from(c)]);
-        let [red, green, blue] = glasses
-            .0
-            .map(|row| encode(row.iter().zip(six).map(|(w, c)| w * c).sum()));
-        [red, green, blue, 255]
-    })
+    let encoder = Encoder::new();
+    let mut out = Grid::new(left.width(), left.height(), [0, 0, 0, 255]);
+    let pixels = left.data().iter().zip(right.data());
+    for (out, (left, right)) in out.data_mut().iter_mut().zip(pixels) {
+        let mut six = [0.0; 6];
+        for (light, &byte) in six.iter_mut().zip(left.iter().chain(right)) {
+            *light = linear[usize::from(byte)];
+        }
+        for (out, weights) in out.iter_mut().zip(&glasses.0) {
+            let mut sum = 0.0;
+            for (weight, light) in weights.iter().zip(&six) {
+                sum += weight * light;
+            }
+            *out = encoder.encode(sum);
+        }
+    }
+    out
 }
 
 /// The anaglyph of the frame and its second eye.

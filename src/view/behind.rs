@@ -60,13 +60,17 @@ pub(super) fn behind(seen: &Layer, leap: Leap, cut: Cut, reach: f32) -> Layer {
         known: Grid::new(width, height, false),
     };
     flood(seen, &mut hidden, leap, cut, reach);
+    let reached = reached(&hidden);
+    if reached.is_empty() {
+        return hidden;
+    }
     if width * height > SMALL {
         start_from(&mut hidden, &behind(&halved(seen), leap, cut, reach));
-        relax(seen, &mut hidden, leap, FINE_SWEEPS, 1.0);
+        relax(seen, &mut hidden, &reached, leap, FINE_SWEEPS, 1.0);
     } else {
-        relax(seen, &mut hidden, leap, SWEEPS, OVER);
+        relax(seen, &mut hidden, &reached, leap, SWEEPS, OVER);
     }
-    smooth(&mut hidden);
+    smooth(&mut hidden, &reached);
     hidden
 }
 
@@ -109,17 +113,15 @@ fn farther(seen: &Layer, leap: Leap, cut: Cut, p: usize, q: usize) -> Option<(us
     Some(if first { (p, q) } else { (q, p) })
 }
 
-/// Neighbours above, below and beside.
-fn beside(i: usize, width: usize, height: usize) -> impl Iterator<Item = usize> {
-    let (x, y) = (i % width, i / width);
+/// Places left, right, above and below of pixel `at`; `None` where the picture ends.
+fn beside(at: usize, width: usize, height: usize) -> [Option<usize>; 4] {
+    let (x, y) = (at % width, at / width);
     [
-        (x > 0).then(|| i - 1),
-        (x + 1 < width).then(|| i + 1),
-        (y > 0).then(|| i - width),
-        (y + 1 < height).then(|| i + width),
+        (x > 0).then(|| at - 1),
+        (x + 1 < width).then(|| at + 1),
+        (y > 0).then(|| at - width),
+        (y + 1 < height).then(|| at + width),
     ]
-    .into_iter()
-    .flatten()
 }
 
 /// Continues every surface, with the values of the nearest pixel that is seen of it.
@@ -127,18 +129,10 @@ fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap, cut: Cut, reach: f32) {
     let (width, height) = (seen.rho.width(), seen.rho.height());
     let furthest = (cut.furthest().min(reach) * width.max(height) as f32).ceil() as u32;
     let (labels, rho) = (seen.labels.data(), seen.rho.data());
+    let taken = hidden.labels.data_mut();
     let mut queue = VecDeque::new();
-    for p in 0..labels.len() {
-        for q in [
-            (p % width + 1 < width).then(|| p + 1),
-            (p + width < labels.len()).then(|| p + width),
-        ] {
-            if let Some((near, far)) = q.and_then(|q| farther(seen, leap, cut, p, q)) {
-                queue.push_back((near, far, 1));
-            }
-        }
-    }
-    while let Some((at, source, far)) = queue.pop_front() {
+    // Whoever comes first to a pixel has it.
+    let mut take = |queue: &mut VecDeque<_>, at: usize, source: usize, far: u32| {
         let label = labels[source];
         // Regions lie before the background, whatever their depth.
         let in_front = match (labels[at], label) {
@@ -146,15 +140,33 @@ fn flood(seen: &Layer, hidden: &mut Layer, leap: Leap, cut: Cut, reach: f32) {
             (0, 1..) => false,
             _ => rho[at] > (1.0 + APART) * rho[source],
         };
-        if hidden.labels.data()[at] != NOTHING || !in_front {
-            continue;
+        if taken[at] == NOTHING && in_front {
+            taken[at] = label;
+            queue.push_back((at, source, far));
         }
-        hidden.labels.data_mut()[at] = label;
+    };
+    for y in 0..height {
+        for p in y * width..(y + 1) * width {
+            if p + 1 < (y + 1) * width
+                && let Some((near, far)) = farther(seen, leap, cut, p, p + 1)
+            {
+                take(&mut queue, near, far, 1);
+            }
+            if y + 1 < height
+                && let Some((near, far)) = farther(seen, leap, cut, p, p + width)
+            {
+                take(&mut queue, near, far, 1);
+            }
+        }
+    }
+    while let Some((at, source, far)) = queue.pop_front() {
         hidden.rho.data_mut()[at] = rho[source];
         hidden.colours.data_mut()[at] = mirrored(seen, at, source);
         hidden.known.data_mut()[at] = seen.known.data()[source];
         if far < furthest {
-            queue.extend(beside(at, width, height).map(|next| (next, source, far + 1)));
+            for next in beside(at, width, height).into_iter().flatten() {
+                take(&mut queue, next, source, far + 1);
+            }
         }
     }
 }
@@ -176,36 +188,91 @@ fn mirrored(seen: &Layer, at: usize, source: usize) -> [u8; 3] {
     there.map_or(seen.colours.data()[source], |place| seen.colours[place])
 }
 
-fn relax(seen: &Layer, hidden: &mut Layer, leap: Leap, sweeps: usize, over: f32) {
+/// What a neighbour of a pixel that is reached has for it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Beside {
+    Nothing,
+    /// The hidden surface.
+    Hidden,
+    /// The same where it is seen.
+    Seen,
+}
+
+/// A pixel behind which something goes on, and what its neighbours have for it, in the order of [`beside`].
+struct Reached {
+    at: usize,
+    around: [Beside; 4],
+}
+
+impl Reached {
+    fn of(at: usize, width: usize, height: usize, what: impl Fn(usize) -> Beside) -> Self {
+        let mut around = [Beside::Nothing; 4];
+        for (around, next) in around.iter_mut().zip(beside(at, width, height)) {
+            if let Some(next) = next {
+                *around = what(next);
+            }
+        }
+        Self { at, around }
+    }
+
+    /// Places of its neighbours; meant for those that there are.
+    fn places(&self, width: usize) -> [usize; 4] {
+        let at = self.at;
+        [
+            at.wrapping_sub(1),
+            at + 1,
+            at.wrapping_sub(width),
+            at + width,
+        ]
+    }
+}
+
+fn relax(
+    seen: &Layer,
+    hidden: &mut Layer,
+    reached: &[usize],
+    leap: Leap,
+    sweeps: usize,
+    over: f32,
+) {
     let (width, height) = (seen.rho.width(), seen.rho.height());
-    let behind = |rho: f32, at: usize| rho.min(seen.rho.data()[at] / (1.0 + APART));
-    // What is seen of the surface lies across the cut.
-    let parted = |at: usize, next: usize| {
-        let (near, far) = (seen.rho.data()[at], seen.rho.data()[next]);
-        seen.labels.data()[at] != seen.labels.data()[next]
-            || (near > far && leap.between(near, far))
-    };
-    let reached = reached(hidden);
-    for _ in 0..sweeps {
-        // A ghost is flat.
-        for &at in reached.iter().filter(|&&at| hidden.known.data()[at]) {
-            let label = hidden.labels.data()[at];
-            let here = hidden.rho.data()[at];
-            let (mut sum, mut count) = (0.0, 0.0);
-            for next in beside(at, width, height) {
-                let value = if hidden.labels.data()[next] == label {
-                    hidden.rho.data()[next]
-                } else if seen.labels.data()[next] == label && parted(at, next) {
-                    seen.rho.data()[next]
+    let shown = seen.rho.data();
+    let labels = hidden.labels.data();
+    // A ghost is flat.
+    let known = reached.iter().filter(|&&at| hidden.known.data()[at]);
+    let around: Vec<Reached> = known
+        .map(|&at| {
+            Reached::of(at, width, height, |next| {
+                let there = seen.labels.data()[next];
+                // What is seen of the surface lies across the cut.
+                let parted = there != seen.labels.data()[at]
+                    || (shown[at] > shown[next] && leap.between(shown[at], shown[next]));
+                if labels[next] == labels[at] {
+                    Beside::Hidden
+                } else if there == labels[at] && parted {
+                    Beside::Seen
                 } else {
-                    continue;
+                    Beside::Nothing
+                }
+            })
+        })
+        .collect();
+    let rho = hidden.rho.data_mut();
+    for _ in 0..sweeps {
+        for reached in &around {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for (next, what) in reached.places(width).into_iter().zip(reached.around) {
+                sum += match what {
+                    Beside::Hidden => rho[next],
+                    Beside::Seen => shown[next],
+                    Beside::Nothing => continue,
                 };
-                sum += value;
                 count += 1.0;
             }
             if count > 0.0 {
-                hidden.rho.data_mut()[at] =
-                    behind((here + over * (sum / count - here)).max(0.5 * here), at);
+                let here = rho[reached.at];
+                let value = (here + over * (sum / count - here)).max(0.5 * here);
+                rho[reached.at] = value.min(shown[reached.at] / (1.0 + APART));
             }
         }
     }
@@ -219,22 +286,29 @@ fn reached(hidden: &Layer) -> Vec<usize> {
         .collect()
 }
 
-fn smooth(hidden: &mut Layer) {
+fn smooth(hidden: &mut Layer, reached: &[usize]) {
     let (width, height) = (hidden.rho.width(), hidden.rho.height());
-    let reached = reached(hidden);
+    let labels = hidden.labels.data();
+    let one = |at: usize| {
+        Reached::of(at, width, height, |next| match labels[next] == labels[at] {
+            true => Beside::Hidden,
+            false => Beside::Nothing,
+        })
+    };
+    let around: Vec<Reached> = reached.iter().map(|&at| one(at)).collect();
+    let colours = hidden.colours.data_mut();
     for _ in 0..SMOOTHED {
-        for &at in &reached {
-            let label = hidden.labels.data()[at];
-            let own = hidden.colours.data()[at].map(u32::from);
-            let (mut sum, mut count) = (own.map(|c| 2 * c), 2);
-            for next in beside(at, width, height) {
-                if hidden.labels.data()[next] == label {
-                    let colour = hidden.colours.data()[next];
-                    sum = std::array::from_fn(|i| sum[i] + u32::from(colour[i]));
+        for reached in &around {
+            let [mut r, mut g, mut b] = colours[reached.at].map(|c| 2 * u32::from(c));
+            let mut count = 2;
+            for (next, what) in reached.places(width).into_iter().zip(reached.around) {
+                if what == Beside::Hidden {
+                    let [red, green, blue] = colours[next].map(u32::from);
+                    (r, g, b) = (r + red, g + green, b + blue);
                     count += 1;
                 }
             }
-            hidden.colours.data_mut()[at] = sum.map(|c| ((c + count / 2) / count) as u8);
+            colours[reached.at] = [r, g, b].map(|c| ((c + count / 2) / count) as u8);
         }
     }
 }

@@ -12,6 +12,53 @@ pub fn encode(linear: f32) -> u8 {
     (255.0 * srgb::encode(f64::from(linear))).round() as u8
 }
 
+/// [`encode`] for whole pictures: the same bytes, looked up.
+pub(super) struct Encoder {
+    /// The least light that each byte stands for.
+    least: Vec<f32>,
+    /// The byte of each of equal steps of light, at the step's start.
+    near: Vec<u8>,
+}
+
+/// Steps of light in [`Encoder`]: in the darkest, the curve's straight part, less than one byte each.
+const STEPS: usize = 4096;
+
+impl Encoder {
+    pub fn new() -> Self {
+        // Positive floats are in the order of their bits.
+        let least = |byte: u8| {
+            let (mut below, mut above) = (0, 1.0f32.to_bits());
+            while above - below > 1 {
+                let middle = below + (above - below) / 2;
+                if encode(f32::from_bits(middle)) < byte {
+                    below = middle;
+                } else {
+                    above = middle;
+                }
+            }
+            f32::from_bits(above)
+        };
+        let mut bytes = vec![0.0];
+        bytes.extend((1..=u8::MAX).map(least));
+        Self {
+            least: bytes,
+            near: (0..=STEPS)
+                .map(|i| encode(i as f32 / STEPS as f32))
+                .collect(),
+        }
+    }
+
+    pub fn encode(&self, linear: f32) -> u8 {
+        // What is not a number becomes 0, as in a conversion.
+        let linear = if linear > 0.0 { linear.min(1.0) } else { 0.0 };
+        let mut byte = self.near[(linear * STEPS as f32) as usize];
+        while byte < u8::MAX && linear >= self.least[usize::from(byte) + 1] {
+            byte += 1;
+        }
+        byte
+    }
+}
+
 /// Relative luminance of linear light (Rec. 709 weights), 0–1.
 pub fn luminance(linear: [f32; 3]) -> f32 {
     0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
@@ -51,4 +98,22 @@ pub(super) fn from_oklch(lightness: f32, chroma: f32, hue: f32) -> [u8; 3] {
         chroma = low;
     }
     oklch(lightness, chroma, hue).map(encode)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn looked_up_bytes_are_those_of_the_curve() {
+        let encoder = Encoder::new();
+        let fine = (0..200_000).map(|i| i as f32 / 190_000.0 - 0.02);
+        let ends = encoder
+            .least
+            .iter()
+            .flat_map(|&l| [l.next_down(), l, l.next_up()]);
+        for light in fine.chain(ends).chain([f32::NAN, f32::INFINITY, -0.0]) {
+            assert_eq!(encoder.encode(light), encode(light), "{light}");
+        }
+    }
 }

@@ -10,6 +10,8 @@
 //! is positive on the nearer side and negative on the farther one; its zero is the outline between pixels. What lies in
 //! between takes the depth of the side that it is on, so that nothing spans the leap.
 
+use std::ops::Range;
+
 use crate::grid::Grid;
 use crate::window::places;
 
@@ -60,31 +62,35 @@ impl Leap {
     }
 }
 
-/// Where depth leaps within the regions of `labels`.
-pub(super) fn leaping(rho: &Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Grid<bool> {
-    let low = window(rho, f32::min);
-    let high = window(rho, f32::max);
-    Grid::from_fn(rho.width(), rho.height(), |x, y| {
-        let at = (x, y);
-        // Over all regions first, which is quick and never misses one.
-        leap.between(low[at], high[at]) && {
-            let around = Around::new(rho, labels, at);
-            leap.between(around.low, around.high) && {
-                let (low, high) = beyond(rho, labels, at, &around);
-                // A steep plane goes on changing.
-                around.high - around.low > CONCENTRATED * (high - low)
+/// Where depth leaps within the regions of `labels`, row by row, with the least and the greatest 1/Z there and beyond.
+fn leaping(rho: &Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Vec<(Around, [f32; 2])> {
+    let low = window(rho, Extreme::Least);
+    let high = window(rho, Extreme::Greatest);
+    let mut leaps = Vec::new();
+    for y in 0..rho.height() {
+        let windows = low.row(y).iter().zip(high.row(y));
+        for (x, (&low, &high)) in windows.enumerate() {
+            // Over all regions first, which is quick and never misses one.
+            if !leap.between(low, high) {
+                continue;
+            }
+            let around = Around::of(rho, labels, (x, y));
+            if !leap.between(around.low, around.high) {
+                continue;
+            }
+            let [low, high] = beyond(rho, labels, &around);
+            // A steep plane goes on changing.
+            if around.high - around.low > CONCENTRATED * (high - low) {
+                leaps.push((around, [low, high]));
             }
         }
-    })
+    }
+    leaps
 }
 
 /// The least and the greatest 1/Z of a pixel's region around it and [`BEYOND`] it.
-fn beyond(
-    rho: &Grid<f32>,
-    labels: &Grid<u8>,
-    (x, y): (usize, usize),
-    around: &Around,
-) -> (f32, f32) {
+fn beyond(rho: &Grid<f32>, labels: &Grid<u8>, around: &Around) -> [f32; 2] {
+    let (x, y) = around.at;
     let (mut low, mut high) = (around.low, around.high);
     for y in [y.checked_sub(BEYOND), Some(y), Some(y + BEYOND)] {
         for x in [x.checked_sub(BEYOND), Some(x), Some(x + BEYOND)] {
@@ -96,37 +102,28 @@ fn beyond(
             }
         }
     }
-    (low, high)
+    [low, high]
 }
 
 /// Sharpens the leaps of `rho` within the regions of `labels` and gives ψ, not a number where depth does not leap.
 pub(super) fn sharpen(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Grid<f32> {
-    let (width, height) = (rho.width(), rho.height());
+    let mut psi = Grid::new(rho.width(), rho.height(), f32::NAN);
     let leaps = leaping(rho, labels, leap);
-    let mut psi = Grid::new(width, height, f32::NAN);
     let blunt = rho.clone();
-    for y in 0..height {
-        for x in 0..width {
-            if !leaps[(x, y)] {
-                continue;
+    for (around, [low, high]) in leaps {
+        let range = around.high - around.low;
+        let quarter = 0.25 * range;
+        let side = around.blurred(&blunt, labels) - (low + high) / 2.0;
+        psi[around.at] = side / (high - low);
+        let here = blunt[around.at];
+        if side >= 0.0 {
+            if here < around.high - 0.1 * range {
+                let nearest = around.high - quarter;
+                rho[around.at] = around.mean(&blunt, labels, |value| value >= nearest);
             }
-            let around = Around::new(&blunt, labels, (x, y));
-            let range = around.high - around.low;
-            let (low, high) = beyond(&blunt, labels, (x, y), &around);
-            let side = around.blurred - (low + high) / 2.0;
-            psi[(x, y)] = side / (high - low);
-            let here = blunt[(x, y)];
-            rho[(x, y)] = if side >= 0.0 {
-                if here < around.high - 0.1 * range {
-                    around.near
-                } else {
-                    here
-                }
-            } else if here > around.low + 0.1 * range {
-                around.far
-            } else {
-                here
-            };
+        } else if here > around.low + 0.1 * range {
+            let farthest = around.low + quarter;
+            rho[around.at] = around.mean(&blunt, labels, |value| value <= farthest);
         }
     }
     psi
@@ -134,47 +131,70 @@ pub(super) fn sharpen(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Gri
 
 /// What a region has within [`REACH`] of a pixel.
 struct Around {
+    at: (usize, usize),
     label: u8,
     low: f32,
     high: f32,
-    blurred: f32,
-    /// Means of the nearest and of the farthest quarter of the range.
-    near: f32,
-    far: f32,
 }
 
 impl Around {
-    fn new(rho: &Grid<f32>, labels: &Grid<u8>, at: (usize, usize)) -> Self {
+    fn of(rho: &Grid<f32>, labels: &Grid<u8>, at: (usize, usize)) -> Self {
         let label = labels[at];
-        let mut values = [(0.0f32, 0.0f32); DEPTHS.len() * DEPTHS.len()];
-        let mut count = 0;
-        let (mut low, mut high, mut sum, mut weights) = (f32::INFINITY, 0.0f32, 0.0, 0.0);
-        for (place, weight) in neighbourhood(&DEPTHS, rho.width(), rho.height(), at) {
-            if labels[place] != label {
-                continue;
+        let (mut low, mut high) = (f32::INFINITY, 0.0f32);
+        let (columns, rows) = within(rho, at);
+        for y in rows {
+            let values = &rho.row(y)[columns.clone()];
+            for (&value, &other) in values.iter().zip(&labels.row(y)[columns.clone()]) {
+                if other == label {
+                    low = if value < low { value } else { low };
+                    high = if value > high { value } else { high };
+                }
             }
-            let value = rho[place];
-            (low, high) = (low.min(value), high.max(value));
-            sum += weight * value;
-            weights += weight;
-            values[count] = (value, weight);
-            count += 1;
         }
-        let mean = |keep: &dyn Fn(f32) -> bool| {
-            let kept = values[..count].iter().filter(|(value, _)| keep(*value));
-            let (sum, all) = kept.fold((0.0, 0.0), |(s, a), (v, w)| (s + v * w, a + w));
-            sum / f32::max(all, 1e-9)
-        };
-        let quarter = 0.25 * (high - low);
         Self {
+            at,
             label,
             low,
             high,
-            blurred: sum / weights,
-            near: mean(&|value| value >= high - quarter),
-            far: mean(&|value| value <= low + quarter),
         }
     }
+
+    /// The sum of the weights of those values that are to be kept, and of the values times them.
+    fn sums(&self, rho: &Grid<f32>, labels: &Grid<u8>, keep: impl Fn(f32) -> bool) -> (f32, f32) {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        let (columns, rows) = within(rho, self.at);
+        let first = columns.start + REACH - self.at.0;
+        for y in rows {
+            let down = DEPTHS[y + REACH - self.at.1];
+            let values = &rho.row(y)[columns.clone()];
+            let owners = &labels.row(y)[columns.clone()];
+            let pixels = values.iter().zip(owners).zip(&DEPTHS[first..]);
+            for ((&value, &label), across) in pixels {
+                if label == self.label && keep(value) {
+                    let weight = across * down;
+                    sum += value * weight;
+                    weights += weight;
+                }
+            }
+        }
+        (sum, weights)
+    }
+
+    fn blurred(&self, rho: &Grid<f32>, labels: &Grid<u8>) -> f32 {
+        let (sum, weights) = self.sums(rho, labels, |_| true);
+        sum / weights
+    }
+
+    fn mean(&self, rho: &Grid<f32>, labels: &Grid<u8>, keep: impl Fn(f32) -> bool) -> f32 {
+        let (sum, weights) = self.sums(rho, labels, keep);
+        sum / f32::max(weights, 1e-9)
+    }
+}
+
+/// Columns and rows of the picture within [`REACH`] of a pixel.
+fn within(rho: &Grid<f32>, (x, y): (usize, usize)) -> (Range<usize>, Range<usize>) {
+    let range = |at: usize, side: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(side);
+    (range(x, rho.width()), range(y, rho.height()))
 }
 
 /// The pixels around `at` that lie in the picture, with their weights.
@@ -191,26 +211,67 @@ pub(super) fn neighbourhood<const N: usize>(
     })
 }
 
-/// The least or greatest value within [`REACH`] of each pixel.
-pub(super) fn window<T: Copy>(grid: &Grid<T>, choose: impl Fn(T, T) -> T) -> Grid<T> {
+/// The least or greatest value within [`REACH`] of each pixel, of values that are all numbers. Windows are doubled: of 2
+/// pixels, of 4, of 8, and two of those that overlap are the 11.
+pub(super) fn window<T: Copy + PartialOrd>(grid: &Grid<T>, extreme: Extreme) -> Grid<T> {
+    // Two loops, for each to be of plain minima or maxima.
+    match extreme {
+        Extreme::Least => windowed(grid, |a, b| if b < a { b } else { a }),
+        Extreme::Greatest => windowed(grid, |a, b| if b > a { b } else { a }),
+    }
+}
+
+/// Which of several values.
+#[derive(Clone, Copy)]
+pub(super) enum Extreme {
+    Least,
+    Greatest,
+}
+
+/// Columns of both sides of a window, itself included, and what two windows of 8 pixels are apart that make it up.
+const WINDOW: usize = 2 * REACH + 1;
+const OVERLAPPING: usize = WINDOW - 8;
+
+#[inline(always)]
+fn windowed<T: Copy>(grid: &Grid<T>, choose: impl Fn(T, T) -> T + Copy) -> Grid<T> {
     let (width, height) = (grid.width(), grid.height());
-    let into = |row: &mut [T], others: &[T]| {
-        for (value, other) in row.iter_mut().zip(others) {
-            *value = choose(*value, *other);
-        }
-    };
-    let mut across = grid.clone();
+    let mut out = grid.clone();
+    let mut padded = vec![grid.data()[0]; width + 2 * REACH];
     for y in 0..height {
-        let row = across.row_mut(y);
-        for shift in 1..=REACH.min(width - 1) {
-            into(row, &grid.row(y)[shift..]);
-            into(&mut row[shift..], grid.row(y));
+        let row = out.row_mut(y);
+        padded[..REACH].fill(row[0]);
+        padded[REACH..REACH + width].copy_from_slice(row);
+        padded[REACH + width..].fill(row[width - 1]);
+        for apart in [1, 2, 4] {
+            // From the start on, so that what is read is not written yet.
+            for i in 0..padded.len() - apart {
+                padded[i] = choose(padded[i], padded[i + apart]);
+            }
+        }
+        let pairs = padded[..width].iter().zip(&padded[OVERLAPPING..]);
+        for (value, (&a, &b)) in row.iter_mut().zip(pairs) {
+            *value = choose(a, b);
         }
     }
-    let mut out = across.clone();
+    // Rows the same way, the first and the last repeated.
+    let rows = height + 2 * REACH;
+    let mut ladder: Vec<T> = Vec::with_capacity(rows * width);
+    for y in 0..rows {
+        ladder.extend_from_slice(out.row(y.saturating_sub(REACH).min(height - 1)));
+    }
+    for apart in [1, 2, 4] {
+        for y in 0..rows - apart {
+            let (here, below) = ladder[y * width..].split_at_mut(apart * width);
+            for (value, &other) in here[..width].iter_mut().zip(&below[..width]) {
+                *value = choose(*value, other);
+            }
+        }
+    }
     for y in 0..height {
-        for near in y.saturating_sub(REACH)..(y + REACH + 1).min(height) {
-            into(out.row_mut(y), across.row(near));
+        let (first, second) = (&ladder[y * width..], &ladder[(y + OVERLAPPING) * width..]);
+        let pairs = first.iter().zip(second);
+        for (value, (&a, &b)) in out.row_mut(y).iter_mut().zip(pairs) {
+            *value = choose(a, b);
         }
     }
     out

@@ -83,6 +83,24 @@ pub struct Hold {
     pub most: Option<f64>,
 }
 
+impl Legend {
+    /// The same for frames `n` times as large as those that are drawn.
+    pub fn enlarged(mut self, n: usize) -> Self {
+        if matches!(self.form, Form::Wheel | Form::Arrow) {
+            for mark in &mut self.marks {
+                mark.value *= n as f32;
+            }
+            if let Some(Hold {
+                speed: Some(speed), ..
+            }) = &mut self.hold
+            {
+                *speed *= n as f64;
+            }
+        }
+        self
+    }
+}
+
 /// The legend of the view `kind` of `found`; `None` for a view whose colours are no measure, and for depth where none
 /// is known.
 ///

@@ -13,7 +13,7 @@ use glam::{Vec2, Vec3};
 use super::ViewParams;
 use super::foreshortening::boxed;
 use super::layers::{Layer, Layers, NOTHING};
-use super::leaps::{LABELS, neighbourhood, window};
+use super::leaps::{Extreme, LABELS, neighbourhood, window};
 use crate::frames::Frame;
 use crate::interpretation::Interpretation;
 use crate::window::places;
@@ -160,8 +160,8 @@ impl Builder<'_> {
     /// The surface that is seen.
     fn see(&mut self, columns: &[usize], rows: &[usize]) -> Vec<Corner> {
         let seen = &self.layers.seen;
-        let least = window(&seen.labels, u8::min);
-        let most = window(&seen.labels, u8::max);
+        let least = window(&seen.labels, Extreme::Least);
+        let most = window(&seen.labels, Extreme::Greatest);
         let mut corners = Vec::with_capacity(columns.len() * rows.len());
         for &y in rows {
             for &x in columns {

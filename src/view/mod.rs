@@ -221,7 +221,13 @@ fn dimmed(frame: &Frame, share: f64, magnify: usize) -> Picture {
 
 fn mix(a: [u8; 3], b: [u8; 3], share_of_b: f32) -> [u8; 3] {
     let t = share_of_b.clamp(0.0, 1.0);
-    std::array::from_fn(|i| (f32::from(a[i]) * (1.0 - t) + f32::from(b[i]) * t).round() as u8)
+    std::array::from_fn(|i| rounded(f32::from(a[i]) * (1.0 - t) + f32::from(b[i]) * t))
+}
+
+/// The nearest byte to a value that is none below 0: `round` is a call in WebAssembly.
+fn rounded(value: f32) -> u8 {
+    let low = value as u8;
+    low.saturating_add(u8::from(value - f32::from(low) >= 0.5))
 }
 
 /// Whether a pixel lies on a line of the diagonal hatching that means "not known".

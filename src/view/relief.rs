@@ -6,7 +6,7 @@
 
 use glam::{Mat3, Vec2, Vec3};
 
-use super::colour::encode;
+use super::colour::Encoder;
 use super::mesh::mesh;
 use super::raster::{Corner, Raster};
 use super::{Picture, ViewParams};
@@ -88,6 +88,7 @@ pub fn relief(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Pic
     let ghosts = draw(&mesh.indices[seen + hidden..], 1.0);
     let mut raster = draw(&mesh.indices[..seen], 1.0);
     raster.add(draw(&mesh.indices[seen..seen + hidden], DIMMED));
+    let encoder = Encoder::new();
     Grid::from_fn(width, height, |x, y| {
         let behind = BEHIND[0].lerp(BEHIND[1], y as f32 / height as f32);
         let mut light = Vec3::ZERO;
@@ -104,7 +105,9 @@ pub fn relief(frame: &Frame, found: &Interpretation, params: &ViewParams) -> Pic
                 light += if here.is_nan() { nothing } else { here };
             }
         }
-        let [r, g, b] = (light / (fine * fine) as f32).to_array().map(encode);
+        let [r, g, b] = (light / (fine * fine) as f32)
+            .to_array()
+            .map(|c| encoder.encode(c));
         [r, g, b, 255]
     })
 }

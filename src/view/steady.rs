@@ -7,7 +7,7 @@
 //! within each region. Where even G ∗ c is next to nothing, depth is not known. Pixels that stand out singly take their
 //! neighbourhood's median, and what is left is averaged over five by five pixels, never across a leap.
 
-use super::leaps::{Leap, window};
+use super::leaps::{Extreme, Leap, window};
 use crate::frames::blur;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
@@ -71,7 +71,7 @@ pub(super) fn steadied(rho: &mut Grid<f32>, found: &Interpretation, known: &[boo
 
 /// Replaces `rho` by the median of its region within two pixels, where it changes by half a leap nearby.
 pub(super) fn median(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
-    let (low, high) = (window(rho, f32::min), window(rho, f32::max));
+    let (low, high) = (window(rho, Extreme::Least), window(rho, Extreme::Greatest));
     let leap = leap.half();
     let noisy = rho.clone();
     let mut values = Vec::with_capacity(25);
@@ -93,17 +93,21 @@ pub(super) fn median(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
 /// opposite sides, so that a plane stays one.
 pub(super) fn mean(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
     let noisy = rho.clone();
+    let (width, height) = (rho.width(), rho.height());
     // Where nothing is near that does not count, which is nearly everywhere, nothing need be asked.
-    let (low, high) = (window(rho, f32::min), window(rho, f32::max));
-    let (first, last) = (window(labels, u8::min), window(labels, u8::max));
-    for y in 0..rho.height() {
-        for x in 0..rho.width() {
+    let (low, high) = (window(rho, Extreme::Least), window(rho, Extreme::Greatest));
+    let (first, last) = (
+        window(labels, Extreme::Least),
+        window(labels, Extreme::Greatest),
+    );
+    let sums = sums_of_five(&noisy);
+    for y in 0..height {
+        for x in 0..width {
             let at = (x, y);
             let here = noisy[at];
             let alike = first[at] == last[at] && !leap.between(low[at], high[at]);
-            if alike && x.min(y) >= 2 && x + 2 < noisy.width() && y + 2 < noisy.height() {
-                let row = |y: usize| noisy.row(y)[x - 2..x + 3].iter().sum::<f32>();
-                rho[at] = (y - 2..y + 3).map(row).sum::<f32>() / 25.0;
+            if alike && x.min(y) >= 2 && x + 2 < width && y + 2 < height {
+                rho[at] = (y - 2..y + 3).map(|y| sums[(x, y)]).sum::<f32>() / 25.0;
                 continue;
             }
             let counts = |p| labels[p] == labels[at] && !leap.between(noisy[p], here);
@@ -118,6 +122,21 @@ pub(super) fn mean(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
             rho[at] = sum / count;
         }
     }
+}
+
+/// Of each pixel and the two on each side of it, where there are.
+fn sums_of_five(grid: &Grid<f32>) -> Grid<f32> {
+    let mut sums = Grid::new(grid.width(), grid.height(), 0.0);
+    for y in 0..grid.height() {
+        let Some(inner) = grid.width().checked_sub(4) else {
+            break;
+        };
+        let row = grid.row(y);
+        for (sum, five) in sums.row_mut(y)[2..2 + inner].iter_mut().zip(row.windows(5)) {
+            *sum = five.iter().sum();
+        }
+    }
+    sums
 }
 
 /// The pixels within two of `at`, fewer at the border, always as many on both sides.

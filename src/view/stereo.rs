@@ -247,7 +247,7 @@ impl Row {
                 continue;
             }
             // The pixel for itself, half a pixel to either side…
-            let nearest = place.round();
+            let nearest = (place + 0.5).floor();
             self.offer(nearest, shifts[x], (place - nearest).abs(), colours[x]);
             // … and the surface from it to its right neighbour.
             if x + 1 == width || !joined(x) {

@@ -2,20 +2,22 @@
 //!
 //! Both frames are shrunk by a whole number n, each pixel the mean of n × n, so that about as many pixels are left as
 //! the option *Detail* says. n is the same both ways, so pixels stay square and f is divided by n. What is found is
-//! brought back to the size of the frames by `upsampling.rs`.
+//! brought back to the size of the frames by `upsampling.rs`, or to that of a picture smaller than it by `downsampling.rs`.
 
+mod downsampling;
 mod size;
 mod upsampling;
 
+pub(crate) use downsampling::downsampled;
 pub use size::{WorkingSize, sizes};
-pub(crate) use upsampling::upsampled;
+pub(crate) use upsampling::Upsampling;
 
 use std::rc::Rc;
 
 use crate::camera::Camera;
 use crate::curves::Shape;
 use crate::error::Error;
-use crate::frames::{FramePair, least_factor, shrunk_camera};
+use crate::frames::{Frame, FramePair, least_factor, shrunk_camera};
 use crate::grid::Grid;
 use crate::options::{Detail, MAX_CURVES};
 
@@ -75,4 +77,16 @@ pub(crate) fn factor(width: usize, height: usize, detail: Detail) -> usize {
     let coarsest = (width.min(height) / SHORTEST).max(1);
     let wanted = wanted.min(coarsest as f64) / least as f64;
     least * wanted.round().max(1.0) as usize
+}
+
+/// The least number by which frames can be shrunk to be drawn with at most `pixels`. Never more than leaves [`SHORTEST`]
+/// pixels of their shorter side, or than `worked`, for the work.
+pub(crate) fn factor_to_draw(frame: &Frame, worked: usize, pixels: usize) -> usize {
+    let step = frame.grey_factor();
+    let all = frame.width() * frame.height();
+    let most = (frame.width().min(frame.height()) / SHORTEST / step * step).max(worked);
+    std::iter::once(1)
+        .chain((step..=most).step_by(step))
+        .find(|n| all / (n * n) <= pixels)
+        .unwrap_or(most)
 }

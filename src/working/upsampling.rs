@@ -11,7 +11,7 @@
 
 use crate::camera::Camera;
 use crate::grid::Grid;
-use crate::interpretation::{Flow, Interpretation};
+use crate::interpretation::{Flow, Interpretation, Pixel};
 use crate::options::MAX_CURVES;
 
 /// σs, pixels of the shrunk frame.
@@ -25,79 +25,171 @@ const STEP: f32 = 0.1;
 /// Regions at most.
 const REGIONS: usize = MAX_CURVES + 1;
 
-/// `found` on a frame of colours `small`, at the size of `large`, which has `ratio` ≥ 1 times as many pixels both ways and
-/// is seen by `camera`. Flow is in pixels of `large`.
-pub(crate) fn upsampled(
-    found: &Interpretation,
-    small: &Grid<[u8; 3]>,
-    large: &Grid<[u8; 3]>,
+/// What was found on a frame of colours `small`, to be told on `large`, which has `ratio` ≥ 1 times as many pixels both ways.
+/// Flow is in pixels of `large`.
+pub(crate) struct Upsampling<'a> {
+    found: &'a Interpretation,
+    small: &'a Grid<[u8; 3]>,
+    large: &'a Grid<[u8; 3]>,
     ratio: f32,
-    camera: Camera,
-) -> Interpretation {
-    let (width, height) = (large.width(), large.height());
-    let rho = found.depth.map(f32::recip);
-    let near_edge = near_edges(found, &rho);
-    let planes = [&rho, &found.flow.u, &found.flow.v, &found.confidence];
-    let weights = Weights::new();
-    let mut out = [(); 4].map(|()| Grid::new(width, height, 0.0f32));
-    let mut labels = Grid::new(width, height, 0u8);
-    let mut occluded = Grid::new(width, height, 0u8);
-    let columns: Vec<Between> = (0..width)
-        .map(|x| Between::of(x, ratio, small.width()))
-        .collect();
-    // Rows of the shrunk frame between which row y lies, mixed.
-    let mut mixed = [(); 4].map(|()| vec![0.0f32; small.width()]);
-    for y in 0..height {
-        let down = Between::of(y, ratio, small.height());
-        for (mixed, plane) in mixed.iter_mut().zip(planes) {
-            let rows = plane.row(down.first).iter().zip(plane.row(down.second));
-            for (m, (&a, &b)) in mixed.iter_mut().zip(rows) {
-                *m = a + down.fraction * (b - a);
+    rho: Grid<f32>,
+    near_edge: Grid<u8>,
+    weights: Weights,
+}
+
+impl<'a> Upsampling<'a> {
+    pub fn new(
+        found: &'a Interpretation,
+        small: &'a Grid<[u8; 3]>,
+        large: &'a Grid<[u8; 3]>,
+        ratio: f32,
+    ) -> Self {
+        let rho = found.depth.map(f32::recip);
+        Self {
+            found,
+            small,
+            large,
+            ratio,
+            near_edge: near_edges(found, &rho),
+            rho,
+            weights: Weights::new(),
+        }
+    }
+
+    /// All of it, as `camera` sees the larger frame.
+    pub fn whole(&self, camera: Camera) -> Interpretation {
+        let (width, height) = (self.large.width(), self.large.height());
+        let planes = self.planes();
+        let mut out = [(); 4].map(|()| Grid::new(width, height, 0.0f32));
+        let mut labels = Grid::new(width, height, 0u8);
+        let mut occluded = Grid::new(width, height, 0u8);
+        let columns = self.columns();
+        // Rows of the shrunk frame between which row y lies, mixed.
+        let mut mixed = [(); 4].map(|()| vec![0.0f32; self.small.width()]);
+        for y in 0..height {
+            let down = self.row(y);
+            for (mixed, plane) in mixed.iter_mut().zip(planes) {
+                let rows = plane.row(down.first).iter().zip(plane.row(down.second));
+                for (m, (&a, &b)) in mixed.iter_mut().zip(rows) {
+                    *m = down.between(a, b);
+                }
+            }
+            let edges = [down.first, down.second].map(|y| self.near_edge.row(y));
+            let nearest = down.nearest();
+            for (x, across) in columns.iter().enumerate() {
+                let (a, b) = (across.first, across.second);
+                let plain = edges.iter().all(|row| row[a] == 0 && row[b] == 0);
+                if plain {
+                    labels[(x, y)] = self.found.labels[(a, nearest)];
+                    occluded[(x, y)] = self.found.occluded[(a, nearest)];
+                    for (out, mixed) in out.iter_mut().zip(&mixed) {
+                        out[(x, y)] = across.between(mixed[a], mixed[b]);
+                    }
+                } else {
+                    let vote = self.vote(self.large[(x, y)], across, &down);
+                    labels[(x, y)] = vote.label;
+                    occluded[(x, y)] = u8::from(vote.occluded);
+                    for (out, value) in out.iter_mut().zip(vote.values) {
+                        out[(x, y)] = value;
+                    }
+                }
             }
         }
-        let edges = [down.first, down.second].map(|y| near_edge.row(y));
-        let nearest = down.nearest();
-        for (x, across) in columns.iter().enumerate() {
-            let (a, b) = (across.first, across.second);
-            let plain = edges.iter().all(|row| row[a] == 0 && row[b] == 0);
-            let values = if plain {
-                labels[(x, y)] = found.labels[(a, nearest)];
-                occluded[(x, y)] = found.occluded[(a, nearest)];
-                [0, 1, 2, 3].map(|i| mixed[i][a] + across.fraction * (mixed[i][b] - mixed[i][a]))
-            } else {
-                let vote = weights.vote(found, &rho, small, large[(x, y)], *across, down);
-                labels[(x, y)] = vote.label;
-                occluded[(x, y)] = u8::from(vote.occluded);
-                vote.values
+        let [mut depth, mut u, mut v, confidence] = out;
+        depth.data_mut().iter_mut().for_each(|z| *z = z.recip());
+        for flow in [&mut u, &mut v] {
+            flow.data_mut().iter_mut().for_each(|w| *w *= self.ratio);
+        }
+        Interpretation {
+            camera,
+            labels,
+            depth,
+            flow: Flow { u, v },
+            confidence,
+            occluded,
+            motions: self.found.motions.clone(),
+        }
+    }
+
+    /// The labels alone.
+    pub fn labels(&self) -> Grid<u8> {
+        let (width, height) = (self.large.width(), self.large.height());
+        let mut labels = Grid::new(width, height, 0u8);
+        let columns = self.columns();
+        for y in 0..height {
+            let down = self.row(y);
+            let edges = [down.first, down.second].map(|y| self.near_edge.row(y));
+            let nearest = self.found.labels.row(down.nearest());
+            for (x, across) in columns.iter().enumerate() {
+                let (a, b) = (across.first, across.second);
+                labels[(x, y)] = if edges.iter().all(|row| row[a] == 0 && row[b] == 0) {
+                    nearest[a]
+                } else {
+                    self.neighbours(self.large[(x, y)], across, &down).label
+                };
+            }
+        }
+        labels
+    }
+
+    /// The same of a single pixel.
+    pub fn pixel(&self, (x, y): (usize, usize)) -> Pixel {
+        let (across, down) = (Between::of(x, self.ratio, self.small.width()), self.row(y));
+        let (a, b) = (across.first, across.second);
+        let plain = [down.first, down.second]
+            .iter()
+            .all(|&y| self.near_edge[(a, y)] == 0 && self.near_edge[(b, y)] == 0);
+        let vote = if plain {
+            let nearest = (a, down.nearest());
+            let mixed = |plane: &Grid<f32>, x| {
+                down.between(plane[(x, down.first)], plane[(x, down.second)])
             };
-            for (out, value) in out.iter_mut().zip(values) {
-                out[(x, y)] = value;
+            Vote {
+                label: self.found.labels[nearest],
+                occluded: self.found.occluded[nearest] != 0,
+                values: self
+                    .planes()
+                    .map(|plane| across.between(mixed(plane, a), mixed(plane, b))),
             }
+        } else {
+            self.vote(self.large[(x, y)], &across, &down)
+        };
+        let [rho, u, v, confidence] = vote.values;
+        Pixel {
+            label: vote.label,
+            depth: rho.recip(),
+            u: u * self.ratio,
+            v: v * self.ratio,
+            confidence,
+            occluded: vote.occluded,
         }
     }
-    let [mut depth, mut u, mut v, confidence] = out;
-    depth.data_mut().iter_mut().for_each(|z| *z = z.recip());
-    for flow in [&mut u, &mut v] {
-        flow.data_mut().iter_mut().for_each(|w| *w *= ratio);
+
+    /// What is mixed: inverse depth, u, v, confidence.
+    fn planes(&self) -> [&Grid<f32>; 4] {
+        let Flow { u, v } = &self.found.flow;
+        [&self.rho, u, v, &self.found.confidence]
     }
-    Interpretation {
-        camera,
-        labels,
-        depth,
-        flow: Flow { u, v },
-        confidence,
-        occluded,
-        motions: found.motions.clone(),
+
+    fn columns(&self) -> Vec<Between> {
+        (0..self.large.width())
+            .map(|x| Between::of(x, self.ratio, self.small.width()))
+            .collect()
+    }
+
+    fn row(&self, y: usize) -> Between {
+        Between::of(y, self.ratio, self.small.height())
     }
 }
 
 /// Where a pixel of the larger frame lies in the shrunk one, along one axis.
-#[derive(Clone, Copy)]
 struct Between {
     first: usize,
     second: usize,
     /// How far it is from the first to the second, 0–1.
     fraction: f32,
+    /// Weights by distance of the [`REACH`] pixels on each side of the nearest one.
+    near: [f32; 2 * REACH as usize + 1],
 }
 
 impl Between {
@@ -105,19 +197,31 @@ impl Between {
         let last = (count - 1) as f32;
         let at = ((x as f32 + 0.5) / ratio - 0.5).clamp(0.0, last);
         let first = at as usize;
-        Self {
+        let mut between = Self {
             first,
             second: (first + 1).min(count - 1),
             fraction: at - first as f32,
+            near: [0.0; 2 * REACH as usize + 1],
+        };
+        let (nearest, at) = (between.nearest() as isize, first as f32 + between.fraction);
+        for (weight, step) in between.near.iter_mut().zip(-REACH..) {
+            let d = (nearest + step) as f32 - at;
+            *weight = (-d * d / (2.0 * SIGMA_SPACE * SIGMA_SPACE)).exp();
         }
+        between
     }
 
-    fn nearest(self) -> usize {
+    fn nearest(&self) -> usize {
         if self.fraction < 0.5 {
             self.first
         } else {
             self.second
         }
+    }
+
+    /// The value there, of those of the first and of the second.
+    fn between(&self, a: f32, b: f32) -> f32 {
+        a + self.fraction * (b - a)
     }
 }
 
@@ -179,69 +283,76 @@ impl Weights {
         Self { colour }
     }
 
-    fn vote(
-        &self,
-        found: &Interpretation,
-        rho: &Grid<f32>,
-        small: &Grid<[u8; 3]>,
-        own: [u8; 3],
-        across: Between,
-        down: Between,
-    ) -> Vote {
+    /// The weight of a pixel of one colour for another's.
+    fn of(&self, own: [u8; 3], other: [u8; 3]) -> f32 {
+        let mut squares = 0;
+        for (a, b) in own.into_iter().zip(other) {
+            let d = i32::from(a) - i32::from(b);
+            squares += d * d;
+        }
+        let step = (squares as f32 / 3.0 / STEP_COLOUR) as usize;
+        self.colour[step.min(self.colour.len() - 1)]
+    }
+}
+
+/// The pixels of the shrunk frame around a place, and the label that most of them say.
+struct Neighbours {
+    near: [((usize, usize), f32, u8); 25],
+    count: usize,
+    label: u8,
+}
+
+impl Upsampling<'_> {
+    fn neighbours(&self, own: [u8; 3], across: &Between, down: &Between) -> Neighbours {
         let centre = (across.nearest() as isize, down.nearest() as isize);
-        let at = (
-            across.first as f32 + across.fraction,
-            down.first as f32 + down.fraction,
-        );
-        let (width, height) = (small.width() as isize, small.height() as isize);
-        let gauss = |d: f32| (-d * d / (2.0 * SIGMA_SPACE * SIGMA_SPACE)).exp();
+        let (width, height) = (self.small.width() as isize, self.small.height() as isize);
         let mut near = [((0usize, 0usize), 0.0f32, 0u8); 25];
         let mut count = 0;
         let mut sums = [0.0f32; REGIONS];
-        for dy in -REACH..=REACH {
+        for (dy, wy) in (-REACH..=REACH).zip(down.near) {
             let y = centre.1 + dy;
             if y < 0 || y >= height {
                 continue;
             }
-            let wy = gauss(y as f32 - at.1);
-            for dx in -REACH..=REACH {
+            for (dx, wx) in (-REACH..=REACH).zip(across.near) {
                 let x = centre.0 + dx;
                 if x < 0 || x >= width {
                     continue;
                 }
                 let q = (x as usize, y as usize);
-                let squares = own.iter().zip(small[q]).map(|(&a, b)| {
-                    let d = i32::from(a) - i32::from(b);
-                    d * d
-                });
-                let squared = squares.sum::<i32>() as f32 / 3.0;
-                let step = ((squared / STEP_COLOUR) as usize).min(self.colour.len() - 1);
-                let weight = wy * gauss(x as f32 - at.0) * self.colour[step];
-                let label = found.labels[q];
+                let weight = wy * wx * self.weights.of(own, self.small[q]);
+                let label = self.found.labels[q];
                 sums[usize::from(label)] += weight;
                 near[count] = (q, weight, label);
                 count += 1;
             }
         }
-        let near = &near[..count];
-        let most = |a: &usize, b: &usize| sums[*a].total_cmp(&sums[*b]);
-        let label = (0..REGIONS).max_by(most).unwrap_or(0) as u8;
-        let own = || near.iter().filter(|(.., l)| *l == label);
+        let mut label = 0;
+        for (k, sum) in sums.iter().enumerate() {
+            if *sum >= sums[label] {
+                label = k;
+            }
+        }
+        Neighbours {
+            near,
+            count,
+            label: label as u8,
+        }
+    }
+
+    fn vote(&self, own: [u8; 3], across: &Between, down: &Between) -> Vote {
+        let Neighbours { near, count, label } = self.neighbours(own, across, down);
+        let own = || near[..count].iter().filter(|(.., l)| *l == label);
         let best = own().max_by(|a, b| a.1.total_cmp(&b.1));
-        let level = best.map_or(1.0, |(q, ..)| rho[*q]);
+        let level = best.map_or(1.0, |(q, ..)| self.rho[*q]);
+        let planes = self.planes();
         let (mut total, mut values, mut hidden) = (0.0, [0.0; 4], 0.0);
         for &(q, weight, _) in own() {
-            if (rho[q] - level).abs() <= STEP * level {
-                let all = [
-                    rho[q],
-                    found.flow.u[q],
-                    found.flow.v[q],
-                    found.confidence[q],
-                ];
-                for (sum, value) in values.iter_mut().zip(all) {
-                    *sum += weight * value;
+            if (self.rho[q] - level).abs() <= STEP * level {
+                for (sum, plane) in values.iter_mut().zip(planes) {
+                    *sum += weight * plane[q];
                 }
-                hidden += weight * f32::from(found.occluded[q]);
+                hidden += weight * f32::from(self.found.occluded[q]);
                 total += weight;
             }
         }

@@ -115,12 +115,30 @@ fn more_detail_starts_anew_at_a_larger_size() {
 fn a_smaller_picture_is_told_its_camera_and_flow() {
     let (solver, _) = fresh("squares", Detail::Full);
     assert_eq!(solver.shrunk_for(W * H), 1);
-    // Never coarser than the work, so that nothing is lost twice.
-    assert_eq!(solver.shrunk_for(1000), 1);
-    let (solver, _) = fresh("squares", Detail::Fast);
-    assert_eq!(solver.shrunk_for(W * H - 1), 2);
-    let frames = solver.frames_shrunk(2);
-    assert_eq!((frames.width(), frames.height()), (W / 2, H / 2));
+    // Smaller than the work where a picture is to be, and never so small that nothing can be seen.
+    assert_eq!(solver.shrunk_for(W * H / 9), 3);
+    assert_eq!(solver.shrunk_for(1000), H / 64);
+    for (detail, n) in [(Detail::Fast, 2), (Detail::Full, 3), (Detail::Fast, 5)] {
+        let (solver, made) = fresh("squares", detail);
+        assert_eq!(solver.shrunk_for(W * H / (n * n)), n);
+        let (frames, found) = (solver.frames_shrunk(n), solver.interpretation_shrunk(n));
+        assert_eq!((frames.width(), frames.height()), (W / n, H / n));
+        assert!(found.labels.same_size(&frames.first().rgb));
+        let camera = made.truth.camera;
+        assert!((found.camera.focal - camera.focal / n as f64).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_pixel_is_told_as_it_is_in_all_that_is_found() {
+    for detail in [Detail::Fast, Detail::Full] {
+        let (mut solver, _) = fresh("squares", detail);
+        solver.step();
+        let (worked, whole) = (solver.worked(), solver.interpretation());
+        for at in (0..W * H).step_by(97).map(|i| (i % W, i / W)) {
+            assert_eq!(solver.pixel(&worked, at), whole.pixel(at), "{at:?}");
+        }
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use relievo::probe::probe;
-use relievo::view::{self, Form, ViewParams, draw, legend};
+use relievo::view::{self, Form, Legend, ViewParams, draw, legend};
 use relievo::{Error, FramePair, scene};
 
 fn hex([r, g, b, _]: [u8; 4]) -> String {
@@ -84,4 +84,28 @@ fn the_truth_leaves_no_brightness_unexplained() {
     unknown.flow.u[(3, 3)] = f32::NAN;
     assert!(probe(&pair, &unknown, &[], (3, 3)).unwrap().psi.is_nan());
     assert_eq!(probe(&pair, truth, &[], (96, 0)), None);
+}
+
+#[test]
+fn the_legend_of_a_smaller_picture_is_in_the_pixels_of_the_frames() {
+    let made = scene::render("squares", 192, 144).unwrap();
+    let params = ViewParams::default();
+    for kind in ["flow", "arrows", "depth"] {
+        let whole = legend(kind, &made.truth, &params).unwrap().unwrap();
+        let small = legend(kind, &made.truth.shrunk(3), &params)
+            .unwrap()
+            .unwrap();
+        let small = small.enlarged(3);
+        for (a, b) in whole.marks.iter().zip(&small.marks) {
+            assert!(
+                (a.value / b.value - 1.0).abs() < 0.02,
+                "{kind}: {a:?} {b:?}"
+            );
+        }
+        let speed = |of: &Legend| of.hold.and_then(|hold| hold.speed);
+        assert_eq!(speed(&small).is_some(), speed(&whole).is_some());
+        if let Some((a, b)) = speed(&whole).zip(speed(&small)) {
+            assert!((a / b - 1.0).abs() < 0.02, "{kind}: {a} {b}");
+        }
+    }
 }

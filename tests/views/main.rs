@@ -2,5 +2,6 @@
 
 mod legend;
 mod measured;
+mod sizes;
 mod surface;
 mod view;

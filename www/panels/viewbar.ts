@@ -7,7 +7,7 @@ import { redo, undo } from "../memory/history";
 import { look } from "../looking";
 import { store, type Showing, type State, type Tool, type ViewParams } from "../store";
 import { text } from "../text";
-import { available, GROUPS, groupOf, viewOf, type Setting } from "../views";
+import { available, GROUPS, groupOf, viewOf, zoomStep, type Setting } from "../views";
 
 export function mountViewbar(): void {
   store.watch(({ catalogues, truth }) => [catalogues, truth], buildViews);
@@ -19,7 +19,10 @@ export function mountViewbar(): void {
     },
   );
   store.watch(
-    ({ view, viewParams, split, ranges }) => [view, viewParams, split?.left, split?.right, ranges],
+    (state) => {
+      const { view, viewParams, split, ranges } = state;
+      return [view, viewParams, split?.left, split?.right, ranges, zoomStep(state)];
+    },
     () => void look(),
   );
   // One setting may set another, and so may a link.

@@ -6,12 +6,9 @@
 
 import type { Kept, Picture, Solver } from "./core";
 import { baselineOf, type Owned } from "./owned";
+import { ERROR } from "./size";
 import { text } from "../text/worker";
 import type { Legend, PictureRequest } from "./protocol";
-
-/** Frames with more pixels are drawn smaller. */
-export const MOST_PIXELS = 4e6;
-const ERROR = "error-";
 
 type Found = Solver | Kept;
 
@@ -20,7 +17,7 @@ export function drawn(
   owned: Owned,
   found: Found,
   request: PictureRequest,
-  pixels: number | null = MOST_PIXELS,
+  pixels: number | null,
 ): Picture {
   const { of, kind, compared } = request;
   const { truth } = owned;
@@ -35,14 +32,20 @@ export function drawn(
     : measured(owned, found, of).view(kind, params);
 }
 
-export function legendOf(owned: Owned, found: Found, request: PictureRequest): Legend | null {
+/** What the colours of such a picture stand for. */
+export function legendOf(
+  owned: Owned,
+  found: Found,
+  request: PictureRequest,
+  pixels: number,
+): Legend | null {
   const { of, kind } = request;
   if (kind.startsWith(ERROR)) {
     const params = JSON.stringify(request.params);
     const drawer = measured(owned, found, of);
     return JSON.parse(drawer.errorLegend(kind.slice(ERROR.length), params, known(owned)));
   }
-  const params = colours(owned, request, request.params);
+  const params = colours(owned, request, { ...request.params, pixels });
   const drawer = of === "truth" ? known(owned) : measured(owned, found, of);
   return JSON.parse(drawer.legend(kind, params)) as Legend | null;
 }

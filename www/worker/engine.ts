@@ -8,7 +8,7 @@
 import { text } from "../text/worker";
 import { decode, findCurves, findFocal, Kept, type Solver } from "./core";
 import { carriedOn } from "./carried";
-import { drawn, legendOf, MOST_PIXELS } from "./drawing";
+import { drawn, legendOf } from "./drawing";
 import { squeeze, unsqueeze } from "./keeping";
 import {
   build,
@@ -24,6 +24,7 @@ import {
   interlacedOf,
 } from "./owned";
 import { bitmap } from "./pictures";
+import { FILE_PIXELS, MESH_PIXELS, sizeOf } from "./size";
 import { goOnFrom } from "./standing";
 import type {
   Begun,
@@ -49,6 +50,12 @@ import type {
   Status,
   Standing,
 } from "./protocol";
+
+interface Drawing {
+  picture: ImageBitmap;
+  legend: Legend | null;
+  blunt: boolean;
+}
 
 export class Engine {
   private owned: Owned | null = null;
@@ -306,17 +313,17 @@ export class Engine {
     return JSON.parse(this.present().solver.contours()) as Contour[];
   }
 
-  async picture(request: PictureRequest, longest: number): Promise<ImageBitmap> {
-    const picture = drawn(this.present().owned, this.shown(), request);
+  /** A picture with its legend, and whether it is a `quick` one that a screen could show sharper. */
+  async picture(request: PictureRequest, longest: number, quick: boolean): Promise<Drawing> {
+    const { owned } = this.present();
+    const { pixels, blunt } = sizeOf(owned.first, request.kind, longest, quick);
+    const picture = drawn(owned, this.shown(), request, pixels);
     try {
-      return await bitmap(picture, longest);
+      const legend = legendOf(owned, this.shown(), request, pixels);
+      return { picture: await bitmap(picture, longest), legend, blunt };
     } finally {
       picture.free();
     }
-  }
-
-  legend(request: PictureRequest): Legend | null {
-    return legendOf(this.present().owned, this.shown(), request);
   }
 
   /** Takes what is true of the frames from files; on an error all stays. */
@@ -342,7 +349,7 @@ export class Engine {
 
   mesh(params: Record<string, unknown>): MeshData {
     const { solver } = this.present();
-    const given = JSON.stringify({ ...params, pixels: MOST_PIXELS });
+    const given = JSON.stringify({ ...params, pixels: MESH_PIXELS });
     const mesh = (this.restored?.kept ?? solver).mesh(given);
     try {
       const { positions, normals, uvs, colours, indices, parts, deepened } = mesh;
@@ -359,7 +366,7 @@ export class Engine {
 
   file(name: string, params: Record<string, unknown>): Uint8Array<ArrayBuffer> {
     const { solver } = this.present();
-    const given = JSON.stringify({ ...params, pixels: MOST_PIXELS });
+    const given = JSON.stringify({ ...params, pixels: FILE_PIXELS });
     return (this.restored?.kept ?? solver).file(name, given);
   }
 

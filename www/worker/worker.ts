@@ -27,6 +27,9 @@ const LONG_MS = 150;
 /** Least time between two reliefs: a new triangulation is work for the page. */
 const MESH_INTERVAL_MS = 400;
 
+/** So long the page is left in peace before it gets pictures as sharp as its screen in the place of quick ones. */
+const SHARPEN_MS = 250;
+
 const engine = new Engine();
 const ready = load();
 
@@ -36,7 +39,7 @@ let took = 0;
 /** Least time of a pass, milliseconds. */
 let pace = 0;
 let looping = false;
-let look = looked({ id: 0, view: "", pictures: [], longest: 1, mesh: null });
+let look = begun({ id: 0, view: "", pictures: [], longest: 1, mesh: null });
 let send: (progress: Progress) => Promise<void> = async () => {};
 let fail: (failure: Failure) => void = () => {};
 
@@ -123,10 +126,21 @@ interface Look {
   /** Requests for pictures that no step changes (truth, baseline) and that were sent. */
   settled: Set<PictureRequest>;
   mesh: { iterations: number; at: number };
+  /** The revision of which quick pictures were sent, and whether sharper ones are to come. */
+  quick: { revision: number; blunt: boolean };
 }
 
+function begun(wanted: Wanted): Look {
+  const quick = { revision: -1, blunt: false };
+  return { wanted, settled: new Set(), mesh: { iterations: -1, at: -Infinity }, quick };
+}
+
+/** Where only the zoom is another, what is there is good until the sharper is. */
 function looked(wanted: Wanted): Look {
-  return { wanted, settled: new Set(), mesh: { iterations: -1, at: -Infinity } };
+  const same = (key: "view" | "pictures") =>
+    JSON.stringify(wanted[key]) === JSON.stringify(look.wanted[key]);
+  const next = begun(wanted);
+  return same("view") && same("pictures") ? { ...next, quick: look.quick } : next;
 }
 
 let inFlight = false;
@@ -160,13 +174,22 @@ function publish(): void {
     .finally(() => {
       inFlight = false;
       if (stale) publish();
+      else if (look.quick.blunt) setTimeout(sharpen, SHARPEN_MS);
     });
+}
+
+/** Quick pictures are followed by sharp ones once there is nothing else to do. */
+function sharpen(): void {
+  if (!running && !inFlight && look.quick.blunt) publish();
 }
 
 async function progress(to: Look): Promise<{ message: Progress; transfer: Transferable[] }> {
   const { wanted, settled } = to;
+  const { revision } = engine;
   const report = engine.report();
   const contours = engine.contours();
+  const quick = running || to.quick.revision !== revision;
+  const blunt: PictureRequest[] = [];
   const transfer: Transferable[] = [];
   let mesh: Progress["mesh"] = null;
   if (wanted.mesh && meshIsDue(to, report.iterations)) {
@@ -178,12 +201,16 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
   const pictures: (ImageBitmap | null)[] = [];
   const legends: Progress["legends"] = [];
   for (const request of wanted.pictures) {
-    const picture = settled.has(request) ? null : await engine.picture(request, wanted.longest);
-    if (picture) transfer.push(picture);
-    legends.push(picture && engine.legend(request));
-    if (request.of !== "found") settled.add(request);
-    pictures.push(picture);
+    const drawn = settled.has(request)
+      ? null
+      : await engine.picture(request, wanted.longest, quick);
+    if (drawn) transfer.push(drawn.picture);
+    if (drawn?.blunt) blunt.push(request);
+    else if (request.of !== "found") settled.add(request);
+    pictures.push(drawn && drawn.picture);
+    legends.push(drawn && drawn.legend);
   }
+  to.quick = { revision, blunt: blunt.length > 0 };
   const passes = await takePasses();
   transfer.push(...passes.map(({ bytes }) => bytes.buffer));
   return {
@@ -192,7 +219,7 @@ async function progress(to: Look): Promise<{ message: Progress; transfer: Transf
       view: wanted.view,
       running,
       started: running || engine.started,
-      revision: engine.revision,
+      revision,
       report,
       contours,
       pictures,

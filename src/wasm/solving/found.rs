@@ -8,15 +8,16 @@ use tsify::Tsify;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::files::{self, listed};
-use super::shown::Shown;
-use super::{Json, Mesh, Picture, Solver, Word, draw, write};
+use super::shown::{Drawn, Shown};
+use super::{Json, Mesh, Picture, Solver, Word, write};
 use crate::curves::Contour;
 use crate::error::Error;
 use crate::file::motion::{MotionFile, RegionMotion, Seconds};
 use crate::file::{png, result};
 use crate::interpretation::Interpretation;
+use crate::probe::probe_of;
 use crate::solver::Report;
-use crate::view::{self, ViewParams};
+use crate::view::ViewParams;
 
 /// Views that are saved with the results, and under which names.
 pub(super) const PICTURES: [(&str, &str); 6] = [
@@ -60,8 +61,7 @@ impl<'a> Outline<'a> {
 impl Solver {
     /// The curves: `Contour[]` as JSON.
     pub fn contours(&self) -> String {
-        let contours = self.solver().contours();
-        write(&contours.iter().map(Outline::of).collect::<Vec<_>>())
+        write(&self.curves().iter().map(Outline::of).collect::<Vec<_>>())
     }
 
     /// A picture of what is found so far: one of `viewCatalogue()`, with parameters of its own.
@@ -71,21 +71,23 @@ impl Solver {
 
     /// What is found at a pixel: a `Probe` as JSON, `null` outside the frame. `params` are those of a view.
     pub fn probe(&self, x: usize, y: usize, params: &Json) -> Result<String, Error> {
-        self.shown().probe((x, y), params)
+        let params = params.view_params()?;
+        let pair = self.solver().pair();
+        if x >= pair.width() || y >= pair.height() {
+            return Ok("null".to_owned());
+        }
+        let pixel = self.solver().pixel(self.worked(), (x, y));
+        Ok(write(&probe_of(pair, pixel, &params.scales, (x, y))))
     }
 
     /// What the colours of a picture stand for: a `Legend` as JSON, `null` where they are no measure.
     pub fn legend(&self, kind: &Word, params: &Json) -> Result<String, Error> {
-        self.shown().legend(kind, params)
+        self.drawn(&params.view_params()?).legend(&kind.view()?)
     }
 
     /// The relief, with the parameters of a view as JSON.
     pub fn mesh(&self, params: &Json) -> Result<Mesh, Error> {
-        let params = params.view_params()?;
-        let n = self.shrunk_for(&params);
-        let found = self.found_shrunk(n);
-        let frames = self.solver().frames_shrunk(n);
-        Ok(Mesh(view::mesh(frames.first(), &found, &params)))
+        Ok(Mesh(self.drawn(&params.view_params()?).mesh().0))
     }
 
     /// Everything found, as an array of files `{name, bytes}`. `params` are those of [`Solver::view`]. Of frames of more than
@@ -117,9 +119,7 @@ impl Solver {
         let name = name.text("name of the file")?;
         self.written(&params, |found| {
             files::one(&name, found, &self.motion_file(found), || {
-                let n = self.shrunk_for(&params);
-                let frame = self.solver().frames_shrunk(n).first().clone();
-                (view::mesh(&frame, &self.found_shrunk(n), &params), frame)
+                self.drawn(&params).mesh()
             })
         })
     }
@@ -153,15 +153,31 @@ impl Solver {
 }
 
 impl Solver {
-    pub(super) fn shown(&self) -> Shown<'_> {
+    pub(super) fn shown(&self) -> Shown {
         Shown {
-            pair: self.solver().pair(),
-            found: self.found(),
+            pair: self.solver().frames_shrunk(1),
+            found: self.found().clone(),
         }
     }
 
-    pub(super) fn found(&self) -> &Interpretation {
-        self.found.get_or_init(|| self.solver().interpretation())
+    fn curves(&self) -> &[Contour] {
+        (self.curves).get_or_init(|| self.solver().contours_of(self.worked()))
+    }
+
+    fn worked(&self) -> &Rc<Interpretation> {
+        (self.worked).get_or_init(|| Rc::new(self.solver().worked()))
+    }
+
+    pub(super) fn found(&self) -> &Rc<Interpretation> {
+        self.found.get_or_init(|| self.resized(1))
+    }
+
+    fn resized(&self, n: usize) -> Rc<Interpretation> {
+        let worked = self.worked();
+        if n == self.solver().worked_shrunk() {
+            return worked.clone();
+        }
+        Rc::new(self.solver().resized(worked, n))
     }
 
     /// Does something with what files are written of, whatever size pictures are asked for.
@@ -181,44 +197,44 @@ impl Solver {
         }
     }
 
-    /// How many times frames are shrunk to be drawn on.
-    fn shrunk_for(&self, params: &ViewParams) -> usize {
-        params
-            .pixels
-            .map_or(1, |most| self.solver().shrunk_for(most))
-    }
-
     fn found_shrunk(&self, n: usize) -> Rc<Interpretation> {
+        if n == 1 {
+            return self.found().clone();
+        }
+        if n == self.solver().worked_shrunk() {
+            return self.worked().clone();
+        }
         let mut shrunk = self.shrunk.borrow_mut();
         match &*shrunk {
             Some((last, found)) if *last == n => found.clone(),
             _ => {
-                let found = Rc::new(self.solver().interpretation_shrunk(n));
+                let found = self.resized(n);
                 *shrunk = Some((n, found.clone()));
                 found
             }
         }
     }
 
+    /// Frames and what is found of them, as large as a picture is to be drawn.
+    fn drawn(&self, params: &ViewParams) -> Drawn {
+        let solver = self.solver();
+        let n = params.pixels.map_or(1, |most| solver.shrunk_for(most));
+        Drawn::of(
+            n,
+            solver.frames_shrunk(n),
+            self.found_shrunk(n),
+            params.clone(),
+        )
+    }
+
     fn picture(&self, kind: &str, params: &ViewParams) -> Result<Picture, Error> {
         // No other view shows curves.
-        let mut contours = if kind == "segmentation" {
-            self.solver().contours()
+        let contours = if kind == "segmentation" {
+            self.curves()
         } else {
-            Vec::new()
+            &[]
         };
-        let n = self.shrunk_for(params);
-        let pair = self.solver().frames_shrunk(n);
-        let frames = [pair.first(), pair.second()];
-        if n == 1 {
-            return draw(kind, frames, self.found(), &contours, params);
-        }
-        contours = contours.into_iter().map(|c| c.shrunk(n)).collect();
-        let params = ViewParams {
-            speed: params.speed.map(|speed| speed / n as f64),
-            ..params.clone()
-        };
-        draw(kind, frames, &self.found_shrunk(n), &contours, &params)
+        self.drawn(params).picture(kind, contours)
     }
 
     fn motion_file(&self, found: &Interpretation) -> MotionFile {

@@ -1,13 +1,16 @@
 //! What a solver has found, put away as bytes and shown again without it.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use js_sys::{Array, Uint8Array};
 use serde::Deserialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::files::{self, listed};
 use super::found::PICTURES;
-use super::shown::Shown;
-use super::{Frame, Json, Mesh, Picture, Solver, Word, draw};
+use super::shown::{Drawn, Shown, Shrunk, drawn_of};
+use super::{Frame, Json, Mesh, Picture, Solver, Word, write};
 use crate::curves::{Contour, differing};
 use crate::error::Error;
 use crate::file::kept::{self, Precision};
@@ -16,7 +19,8 @@ use crate::file::{png, result};
 use crate::frames::FramePair;
 use crate::interpretation::Interpretation;
 use crate::motion_model::MotionModel;
-use crate::view::{self, ViewParams};
+use crate::probe::probe;
+use crate::view::ViewParams;
 
 /// What is taken from a `Contour`.
 #[derive(Deserialize)]
@@ -87,8 +91,10 @@ impl Solver {
 /// What a solver had found when it was asked to `keep` it.
 #[wasm_bindgen]
 pub struct Kept {
-    pair: FramePair,
-    found: Interpretation,
+    pair: Rc<FramePair>,
+    found: Rc<Interpretation>,
+    /// Both shrunk, as they were drawn last.
+    shrunk: RefCell<Option<Shrunk>>,
     contours: Vec<Contour>,
     motion: MotionFile,
 }
@@ -129,8 +135,9 @@ impl Kept {
         };
         let contours = outlines.into_iter().map(Outline::contour).collect();
         Ok(Self {
-            pair,
-            found,
+            pair: Rc::new(pair),
+            found: Rc::new(found),
+            shrunk: RefCell::default(),
             contours,
             motion,
         })
@@ -143,18 +150,19 @@ impl Kept {
 
     /// What is found at a pixel: a `Probe` as JSON, `null` outside the frame. `params` are those of a view.
     pub fn probe(&self, x: usize, y: usize, params: &Json) -> Result<String, Error> {
-        self.shown().probe((x, y), params)
+        let params = params.view_params()?;
+        let found = probe(&self.pair, &self.found, &params.scales, (x, y));
+        Ok(write(&found))
     }
 
     /// What the colours of a picture stand for: a `Legend` as JSON, `null` where they are no measure.
     pub fn legend(&self, kind: &Word, params: &Json) -> Result<String, Error> {
-        self.shown().legend(kind, params)
+        self.drawn(&params.view_params()?).legend(&kind.view()?)
     }
 
     /// The relief, with the parameters of a view as JSON.
     pub fn mesh(&self, params: &Json) -> Result<Mesh, Error> {
-        let params = params.view_params()?;
-        Ok(Mesh(view::mesh(self.pair.first(), &self.found, &params)))
+        Ok(Mesh(self.drawn(&params.view_params()?).mesh().0))
     }
 
     /// All of it, as an array of files `{name, bytes}`. `params` are those of [`Kept::view`].
@@ -175,17 +183,16 @@ impl Kept {
         let params = params.view_params()?;
         let (found, motion) = self.scaled(&params);
         files::one(&name.text("name of the file")?, &found, &motion, || {
-            let frame = self.pair.first().clone();
-            (view::mesh(&frame, &self.found, &params), frame)
+            self.drawn(&params).mesh()
         })
     }
 }
 
 impl Kept {
-    pub(super) fn shown(&self) -> Shown<'_> {
+    pub(super) fn shown(&self) -> Shown {
         Shown {
-            pair: &self.pair,
-            found: &self.found,
+            pair: self.pair.clone(),
+            found: self.found.clone(),
         }
     }
 
@@ -202,9 +209,12 @@ impl Kept {
         (found, motion)
     }
 
+    fn drawn(&self, params: &ViewParams) -> Drawn {
+        drawn_of(&self.pair, &self.found, params, &self.shrunk)
+    }
+
     fn picture(&self, kind: &str, params: &ViewParams) -> Result<Picture, Error> {
-        let frames = [self.pair.first(), self.pair.second()];
-        draw(kind, frames, &self.found, &self.contours, params)
+        self.drawn(params).picture(kind, &self.contours)
     }
 }
 

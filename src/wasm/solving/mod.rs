@@ -42,10 +42,8 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use wasm_bindgen::{JsCast, JsValue};
 
 use crate::Error;
-use crate::curves::Contour;
-use crate::interpretation::Interpretation;
 use crate::json;
-use crate::view::{self, ViewParams};
+use crate::view::ViewParams;
 
 #[wasm_bindgen]
 extern "C" {
@@ -119,20 +117,4 @@ fn kind_of(it: &JsValue) -> String {
 /// Writes JSON for JavaScript. What is not a number becomes `null`.
 fn write<T: Serialize + ?Sized>(it: &T) -> String {
     serde_json::to_string(it).expect("the core's own values have text for keys")
-}
-
-/// The view `kind` of `found` over the frame that it belongs on.
-fn draw(
-    kind: &str,
-    frames: [&crate::Frame; 2],
-    found: &Interpretation,
-    contours: &[Contour],
-    params: &ViewParams,
-) -> Result<Picture, Error> {
-    if kind == shown::RESIDUAL {
-        let pair = crate::FramePair::new(frames[0].clone(), frames[1].clone())?;
-        return Ok(Picture(view::residuals(&pair, found, params)?.0));
-    }
-    let frame = frames[usize::from(kind == "second")];
-    view::draw(kind, frame, found, contours, params).map(Picture)
 }

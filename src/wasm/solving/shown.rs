@@ -1,16 +1,20 @@
 //! What is asked of an interpretation, whether a solver has it or it was put away.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use serde::Serialize;
 use tsify::Tsify;
 
-use super::{Json, Picture, Word, draw, write};
+use super::{Json, Picture, Word, write};
+use crate::curves::Contour;
 use crate::error::Error;
 use crate::file::parts::Parts;
-use crate::frames::FramePair;
+use crate::frames::{Frame, FramePair};
 use crate::interpretation::Interpretation;
-use crate::probe::probe;
 use crate::score::{self, PartScores};
-use crate::view::{self, Legend};
+use crate::view::{self, Legend, Mesh, ViewParams};
+use crate::working::factor_to_draw;
 
 /// The view that takes both frames.
 pub(super) const RESIDUAL: &str = "residual";
@@ -32,17 +36,17 @@ struct FlowScores {
 }
 
 /// Two frames and what is found of them.
-pub(super) struct Shown<'a> {
-    pub pair: &'a FramePair,
-    pub found: &'a Interpretation,
+pub(super) struct Shown {
+    pub pair: Rc<FramePair>,
+    pub found: Rc<Interpretation>,
 }
 
-impl Shown<'_> {
+impl Shown {
     /// A picture, each region's depth in the unit of the truth.
     pub fn aligned(&self, kind: &Word, params: &Json, truth: &Parts) -> Result<Picture, Error> {
-        let aligned = view::aligned(self.found, truth)?;
-        let frames = [self.pair.first(), self.pair.second()];
-        draw(&kind.view()?, frames, &aligned, &[], &params.view_params()?)
+        let aligned = Rc::new(view::aligned(&self.found, truth)?);
+        let params = params.view_params()?;
+        drawn_of(&self.pair, &aligned, &params, &RefCell::default()).picture(&kind.view()?, &[])
     }
 
     /// A map of errors and its legend.
@@ -53,28 +57,12 @@ impl Shown<'_> {
         truth: &Parts,
     ) -> Result<(view::Picture, Legend), Error> {
         let what = what.text("map of errors")?;
-        view::errors(&what, self.found, truth, &params.view_params()?)
-    }
-
-    /// A `Probe` as JSON.
-    pub fn probe(&self, at: (usize, usize), params: &Json) -> Result<String, Error> {
-        let params = params.view_params()?;
-        Ok(write(&probe(self.pair, self.found, &params.scales, at)))
-    }
-
-    /// A `Legend` as JSON.
-    pub fn legend(&self, kind: &Word, params: &Json) -> Result<String, Error> {
-        let params = params.view_params()?;
-        let kind = kind.view()?;
-        if kind == RESIDUAL {
-            return Ok(write(&view::residuals(self.pair, self.found, &params)?.1));
-        }
-        Ok(write(&view::legend(&kind, self.found, &params)?))
+        view::errors(&what, &self.found, truth, &params.view_params()?)
     }
 
     /// A `ScoreTable` as JSON, `null` where the truth has nothing of what is found.
     pub fn scores(&self, truth: &Parts, baseline: &Interpretation) -> Result<String, Error> {
-        let found = match score::compare_found(self.found, truth) {
+        let found = match score::compare_found(&self.found, truth) {
             Err(Error::NothingShared) => return Ok("null".to_owned()),
             scores => scores?,
         };
@@ -85,5 +73,116 @@ impl Shown<'_> {
             found,
             baseline: FlowScores { aee, aae },
         }))
+    }
+}
+
+/// Two frames and what is found of them, as large as a picture is to be drawn.
+pub(super) struct Drawn {
+    factor: usize,
+    pair: Rc<FramePair>,
+    found: Rc<Interpretation>,
+    params: ViewParams,
+}
+
+impl Drawn {
+    /// All of it shrunk `factor` times. `params` are those of the frames at their size.
+    pub fn of(
+        factor: usize,
+        pair: Rc<FramePair>,
+        found: Rc<Interpretation>,
+        params: ViewParams,
+    ) -> Self {
+        let speed = params.speed.map(|speed| speed / factor as f64);
+        Self {
+            factor,
+            pair,
+            found,
+            params: ViewParams { speed, ..params },
+        }
+    }
+
+    /// A picture; `contours` are those of the frames at their size.
+    pub fn picture(&self, kind: &str, contours: &[Contour]) -> Result<Picture, Error> {
+        let Self {
+            pair,
+            found,
+            params,
+            ..
+        } = self;
+        if kind == RESIDUAL {
+            return Ok(Picture(view::residuals(pair, found, params)?.0));
+        }
+        let frame = if kind == "second" {
+            pair.second()
+        } else {
+            pair.first()
+        };
+        let contours: Vec<Contour> = (contours.iter())
+            .map(|c| c.clone().shrunk(self.factor))
+            .collect();
+        view::draw(kind, frame, found, &contours, params).map(Picture)
+    }
+
+    /// The relief, and the frame that lies on it.
+    pub fn mesh(&self) -> (Mesh, Frame) {
+        let frame = self.pair.first();
+        (view::mesh(frame, &self.found, &self.params), frame.clone())
+    }
+
+    /// What the colours of a picture stand for, motion in pixels of the frames at their size: a `Legend` as JSON.
+    pub fn legend(&self, kind: &str) -> Result<String, Error> {
+        let Self {
+            pair,
+            found,
+            params,
+            ..
+        } = self;
+        if kind == RESIDUAL {
+            return Ok(write(&view::residuals(pair, found, params)?.1));
+        }
+        let legend = view::legend(kind, found, params)?;
+        Ok(write(&legend.map(|legend| legend.enlarged(self.factor))))
+    }
+}
+
+/// The same of frames and what is found at their size. What was shrunk last is kept in `last`.
+pub(super) fn drawn_of(
+    pair: &Rc<FramePair>,
+    found: &Rc<Interpretation>,
+    params: &ViewParams,
+    last: &RefCell<Option<Shrunk>>,
+) -> Drawn {
+    let n = params
+        .pixels
+        .map_or(1, |most| factor_to_draw(pair.first(), 1, most));
+    if n == 1 {
+        return Drawn::of(1, pair.clone(), found.clone(), params.clone());
+    }
+    let mut last = last.borrow_mut();
+    if last.as_ref().is_none_or(|last| last.factor != n) {
+        *last = Some(Shrunk::of(pair, found, n));
+    }
+    let Shrunk { pair, found, .. } = last.as_ref().expect("it has just been made");
+    Drawn::of(n, pair.clone(), found.clone(), params.clone())
+}
+
+/// Two frames and what was found of them, shrunk alike, to be drawn.
+pub(super) struct Shrunk {
+    /// How many times.
+    pub factor: usize,
+    /// The frames.
+    pub pair: Rc<FramePair>,
+    /// What was found, as if of them.
+    pub found: Rc<Interpretation>,
+}
+
+impl Shrunk {
+    /// `pair` and what was `found` of it shrunk `factor` times, which [`factor_to_draw`] gives.
+    pub fn of(pair: &FramePair, found: &Interpretation, factor: usize) -> Self {
+        Self {
+            factor,
+            pair: Rc::new(pair.shrunk(factor)),
+            found: Rc::new(found.shrunk(factor)),
+        }
     }
 }

@@ -10,7 +10,7 @@ use web_sys::Performance;
 
 use super::camera::camera_of;
 use super::{Frame, Json, write};
-use crate::curves::Shape;
+use crate::curves::{Contour, Shape};
 use crate::error::Error;
 use crate::frames::FramePair;
 use crate::interpretation::Interpretation;
@@ -31,10 +31,14 @@ fn now() -> f64 {
 #[wasm_bindgen]
 pub struct Solver {
     solver: crate::Solver,
-    /// What it has found, asked for by several views of the same pass.
-    pub(super) found: OnceCell<Interpretation>,
-    /// The same on frames shrunk so many times.
+    /// What it has found, as it is worked on, asked for by several views of the same pass.
+    pub(super) worked: OnceCell<Rc<Interpretation>>,
+    /// The same at the size of the frames.
+    pub(super) found: OnceCell<Rc<Interpretation>>,
+    /// The same on frames shrunk so many times, the last that was drawn on.
     pub(super) shrunk: RefCell<Option<(usize, Rc<Interpretation>)>>,
+    /// Its curves.
+    pub(super) curves: OnceCell<Vec<Contour>>,
 }
 
 #[wasm_bindgen]
@@ -59,8 +63,10 @@ impl Solver {
         solver.set_clock(now);
         Ok(Self {
             solver,
+            worked: OnceCell::new(),
             found: OnceCell::new(),
             shrunk: RefCell::default(),
+            curves: OnceCell::new(),
         })
     }
 
@@ -143,8 +149,10 @@ impl Solver {
     }
 
     pub(super) fn change(&mut self) -> &mut crate::Solver {
+        self.worked.take();
         self.found.take();
         self.shrunk.take();
+        self.curves.take();
         &mut self.solver
     }
 }

@@ -1,16 +1,19 @@
 //! What is known to be true of two frames: a built-in sequence's own, or read from files.
 
+use std::cell::RefCell;
+
 use serde::Serialize;
 use tsify::Tsify;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::files::{Files, files_of};
-use super::{Baseline, Frame, Json, Kept, Picture, Scene, Solver, Word, draw, write};
+use super::{Baseline, Frame, Json, Kept, Picture, Scene, Solver, Word, write};
 use crate::error::Error;
 use crate::file::kind::kind_of;
 use crate::file::parts::Parts;
 use crate::interpretation::Interpretation;
-use crate::view;
+use crate::view::{self, ViewParams};
+use crate::working::factor_to_draw;
 
 /// Which parts of a truth are known.
 #[derive(Serialize, Tsify)]
@@ -28,6 +31,8 @@ pub struct Truth {
     parts: Parts,
     /// The same to be drawn.
     filled: Interpretation,
+    /// Frames and truth shrunk so many times, as they were drawn last.
+    shrunk: RefCell<Option<(usize, [crate::Frame; 2], Interpretation)>>,
 }
 
 /// The name under which `SavedResult` and `Truth` take a file; `undefined` where it is something else, such as a frame.
@@ -82,6 +87,7 @@ impl Truth {
             frames: [first.0.clone(), second.0.clone()],
             parts,
             filled,
+            shrunk: RefCell::default(),
         })
     }
 
@@ -93,6 +99,7 @@ impl Truth {
             frames: sequence.frames.clone(),
             parts: Parts::from(&sequence.truth),
             filled: sequence.truth.clone(),
+            shrunk: RefCell::default(),
         }
     }
 
@@ -108,9 +115,29 @@ impl Truth {
 
     /// A picture of it: one of `viewCatalogue()`, with parameters of its own as JSON.
     pub fn view(&self, kind: &Word, params: &Json) -> Result<Picture, Error> {
-        let [first, second] = &self.frames;
-        let params = params.view_params()?;
-        draw(&kind.view()?, [first, second], &self.filled, &[], &params)
+        let (kind, params) = (kind.view()?, params.view_params()?);
+        let draw = |[first, second]: &[crate::Frame; 2], truth: &Interpretation, n: usize| {
+            let frame = if kind == "second" { second } else { first };
+            let speed = params.speed.map(|speed| speed / n as f64);
+            let params = ViewParams {
+                speed,
+                ..params.clone()
+            };
+            view::draw(&kind, frame, truth, &[], &params).map(Picture)
+        };
+        let n = params
+            .pixels
+            .map_or(1, |most| factor_to_draw(&self.frames[0], 1, most));
+        if n == 1 {
+            return draw(&self.frames, &self.filled, 1);
+        }
+        let mut last = self.shrunk.borrow_mut();
+        if last.as_ref().is_none_or(|(last, ..)| *last != n) {
+            let frames = self.frames.each_ref().map(|frame| frame.shrunk(n));
+            *last = Some((n, frames, self.filled.shrunk(n)));
+        }
+        let (_, frames, truth) = last.as_ref().expect("it has just been made");
+        draw(frames, truth, n)
     }
 
     /// What the colours of such a picture stand for: a `Legend` as JSON, `null` where they are no measure.
