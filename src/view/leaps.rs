@@ -10,7 +10,7 @@
 //! is positive on the nearer side and negative on the farther one; its zero is the outline between pixels. What lies in
 //! between takes the depth of the side that it is on, so that nothing spans the leap.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use crate::grid::Grid;
 use crate::window::places;
@@ -64,8 +64,7 @@ impl Leap {
 
 /// Where depth leaps within the regions of `labels`, row by row, with the least and the greatest 1/Z there and beyond.
 fn leaping(rho: &Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Vec<(Around, [f32; 2])> {
-    let low = window(rho, Extreme::Least);
-    let high = window(rho, Extreme::Greatest);
+    let (low, high) = (least_near(rho), greatest_near(rho));
     let mut leaps = Vec::new();
     for y in 0..rho.height() {
         let windows = low.row(y).iter().zip(high.row(y));
@@ -113,17 +112,17 @@ pub(super) fn sharpen(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) -> Gri
     for (around, [low, high]) in leaps {
         let range = around.high - around.low;
         let quarter = 0.25 * range;
-        let side = around.blurred(&blunt, labels) - (low + high) / 2.0;
+        let side = around.mean(&blunt, labels, 0.0..=f32::INFINITY) - (low + high) / 2.0;
         psi[around.at] = side / (high - low);
         let here = blunt[around.at];
         if side >= 0.0 {
             if here < around.high - 0.1 * range {
                 let nearest = around.high - quarter;
-                rho[around.at] = around.mean(&blunt, labels, |value| value >= nearest);
+                rho[around.at] = around.mean(&blunt, labels, nearest..=f32::INFINITY);
             }
         } else if here > around.low + 0.1 * range {
             let farthest = around.low + quarter;
-            rho[around.at] = around.mean(&blunt, labels, |value| value <= farthest);
+            rho[around.at] = around.mean(&blunt, labels, 0.0..=farthest);
         }
     }
     psi
@@ -159,8 +158,8 @@ impl Around {
         }
     }
 
-    /// The sum of the weights of those values that are to be kept, and of the values times them.
-    fn sums(&self, rho: &Grid<f32>, labels: &Grid<u8>, keep: impl Fn(f32) -> bool) -> (f32, f32) {
+    /// The weighted mean of those values that are to be kept.
+    fn mean(&self, rho: &Grid<f32>, labels: &Grid<u8>, keep: RangeInclusive<f32>) -> f32 {
         let (mut sum, mut weights) = (0.0, 0.0);
         let (columns, rows) = within(rho, self.at);
         let first = columns.start + REACH - self.at.0;
@@ -170,23 +169,13 @@ impl Around {
             let owners = &labels.row(y)[columns.clone()];
             let pixels = values.iter().zip(owners).zip(&DEPTHS[first..]);
             for ((&value, &label), across) in pixels {
-                if label == self.label && keep(value) {
+                if label == self.label && keep.contains(&value) {
                     let weight = across * down;
                     sum += value * weight;
                     weights += weight;
                 }
             }
         }
-        (sum, weights)
-    }
-
-    fn blurred(&self, rho: &Grid<f32>, labels: &Grid<u8>) -> f32 {
-        let (sum, weights) = self.sums(rho, labels, |_| true);
-        sum / weights
-    }
-
-    fn mean(&self, rho: &Grid<f32>, labels: &Grid<u8>, keep: impl Fn(f32) -> bool) -> f32 {
-        let (sum, weights) = self.sums(rho, labels, keep);
         sum / f32::max(weights, 1e-9)
     }
 }
@@ -211,32 +200,12 @@ pub(super) fn neighbourhood<const N: usize>(
     })
 }
 
-/// The least or greatest value within [`REACH`] of each pixel, of values that are all numbers. Windows are doubled: of 2
-/// pixels, of 4, of 8, and two of those that overlap are the 11.
-pub(super) fn window<T: Copy + PartialOrd>(grid: &Grid<T>, extreme: Extreme) -> Grid<T> {
-    // Two loops, for each to be of plain minima or maxima.
-    match extreme {
-        Extreme::Least => windowed(grid, |a, b| if b < a { b } else { a }),
-        Extreme::Greatest => windowed(grid, |a, b| if b > a { b } else { a }),
-    }
-}
-
-/// Which of several values.
-#[derive(Clone, Copy)]
-pub(super) enum Extreme {
-    Least,
-    Greatest,
-}
-
-/// Columns of both sides of a window, itself included, and what two windows of 8 pixels are apart that make it up.
-const WINDOW: usize = 2 * REACH + 1;
-const OVERLAPPING: usize = WINDOW - 8;
-
-#[inline(always)]
-fn windowed<T: Copy>(grid: &Grid<T>, choose: impl Fn(T, T) -> T + Copy) -> Grid<T> {
+/// The least value within [`REACH`] of each pixel, of values that are all numbers. Windows are doubled: of 2 pixels, of
+/// 4, of 8, and two of those that overlap are the 11.
+pub(super) fn least_near(grid: &Grid<f32>) -> Grid<f32> {
     let (width, height) = (grid.width(), grid.height());
     let mut out = grid.clone();
-    let mut padded = vec![grid.data()[0]; width + 2 * REACH];
+    let mut padded = vec![0.0; width + 2 * REACH];
     for y in 0..height {
         let row = out.row_mut(y);
         padded[..REACH].fill(row[0]);
@@ -245,17 +214,14 @@ fn windowed<T: Copy>(grid: &Grid<T>, choose: impl Fn(T, T) -> T + Copy) -> Grid<
         for apart in [1, 2, 4] {
             // From the start on, so that what is read is not written yet.
             for i in 0..padded.len() - apart {
-                padded[i] = choose(padded[i], padded[i + apart]);
+                padded[i] = lesser(padded[i], padded[i + apart]);
             }
         }
-        let pairs = padded[..width].iter().zip(&padded[OVERLAPPING..]);
-        for (value, (&a, &b)) in row.iter_mut().zip(pairs) {
-            *value = choose(a, b);
-        }
+        lesser_of(row, &padded, &padded[OVERLAPPING..]);
     }
     // Rows the same way, the first and the last repeated.
     let rows = height + 2 * REACH;
-    let mut ladder: Vec<T> = Vec::with_capacity(rows * width);
+    let mut ladder = Vec::with_capacity(rows * width);
     for y in 0..rows {
         ladder.extend_from_slice(out.row(y.saturating_sub(REACH).min(height - 1)));
     }
@@ -263,16 +229,47 @@ fn windowed<T: Copy>(grid: &Grid<T>, choose: impl Fn(T, T) -> T + Copy) -> Grid<
         for y in 0..rows - apart {
             let (here, below) = ladder[y * width..].split_at_mut(apart * width);
             for (value, &other) in here[..width].iter_mut().zip(&below[..width]) {
-                *value = choose(*value, other);
+                *value = lesser(*value, other);
             }
         }
     }
     for y in 0..height {
         let (first, second) = (&ladder[y * width..], &ladder[(y + OVERLAPPING) * width..]);
-        let pairs = first.iter().zip(second);
-        for (value, (&a, &b)) in out.row_mut(y).iter_mut().zip(pairs) {
-            *value = choose(a, b);
-        }
+        lesser_of(out.row_mut(y), first, second);
     }
     out
+}
+
+/// The greatest in the same way.
+pub(super) fn greatest_near(grid: &Grid<f32>) -> Grid<f32> {
+    let mut least = least_near(&grid.map(|value| -value));
+    least
+        .data_mut()
+        .iter_mut()
+        .for_each(|value| *value = -*value);
+    least
+}
+
+/// Whether all pixels within [`REACH`] have the label of this one.
+pub(super) fn one_label_near(labels: &Grid<u8>) -> Grid<bool> {
+    let numbers = labels.map(f32::from);
+    let (least, greatest) = (least_near(&numbers), greatest_near(&numbers));
+    Grid::from_fn(labels.width(), labels.height(), |x, y| {
+        least[(x, y)] == greatest[(x, y)]
+    })
+}
+
+/// Columns of both sides of a window, itself included, and what two windows of 8 pixels are apart that make it up.
+const WINDOW: usize = 2 * REACH + 1;
+const OVERLAPPING: usize = WINDOW - 8;
+
+/// Of numbers; one instruction, as `f32::min` is not.
+fn lesser(a: f32, b: f32) -> f32 {
+    if b < a { b } else { a }
+}
+
+fn lesser_of(out: &mut [f32], first: &[f32], second: &[f32]) {
+    for (value, (&a, &b)) in out.iter_mut().zip(first.iter().zip(second)) {
+        *value = lesser(a, b);
+    }
 }

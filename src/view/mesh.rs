@@ -13,7 +13,7 @@ use glam::{Vec2, Vec3};
 use super::ViewParams;
 use super::foreshortening::boxed;
 use super::layers::{Layer, Layers, NOTHING};
-use super::leaps::{Extreme, LABELS, neighbourhood, window};
+use super::leaps::{LABELS, neighbourhood, one_label_near};
 use crate::frames::Frame;
 use crate::interpretation::Interpretation;
 use crate::window::places;
@@ -160,13 +160,12 @@ impl Builder<'_> {
     /// The surface that is seen.
     fn see(&mut self, columns: &[usize], rows: &[usize]) -> Vec<Corner> {
         let seen = &self.layers.seen;
-        let least = window(&seen.labels, Extreme::Least);
-        let most = window(&seen.labels, Extreme::Greatest);
+        let one_label = one_label_near(&seen.labels);
         let mut corners = Vec::with_capacity(columns.len() * rows.len());
         for &y in rows {
             for &x in columns {
                 let place = (x, y);
-                let label = if least[place] == most[place] {
+                let label = if one_label[place] {
                     seen.labels[place]
                 } else {
                     self.smoothed(place)

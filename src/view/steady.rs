@@ -7,7 +7,7 @@
 //! within each region. Where even G ∗ c is next to nothing, depth is not known. Pixels that stand out singly take their
 //! neighbourhood's median, and what is left is averaged over five by five pixels, never across a leap.
 
-use super::leaps::{Extreme, Leap, window};
+use super::leaps::{Leap, greatest_near, least_near, one_label_near};
 use crate::frames::blur;
 use crate::grid::Grid;
 use crate::interpretation::Interpretation;
@@ -71,7 +71,7 @@ pub(super) fn steadied(rho: &mut Grid<f32>, found: &Interpretation, known: &[boo
 
 /// Replaces `rho` by the median of its region within two pixels, where it changes by half a leap nearby.
 pub(super) fn median(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
-    let (low, high) = (window(rho, Extreme::Least), window(rho, Extreme::Greatest));
+    let (low, high) = (least_near(rho), greatest_near(rho));
     let leap = leap.half();
     let noisy = rho.clone();
     let mut values = Vec::with_capacity(25);
@@ -95,17 +95,14 @@ pub(super) fn mean(rho: &mut Grid<f32>, labels: &Grid<u8>, leap: Leap) {
     let noisy = rho.clone();
     let (width, height) = (rho.width(), rho.height());
     // Where nothing is near that does not count, which is nearly everywhere, nothing need be asked.
-    let (low, high) = (window(rho, Extreme::Least), window(rho, Extreme::Greatest));
-    let (first, last) = (
-        window(labels, Extreme::Least),
-        window(labels, Extreme::Greatest),
-    );
+    let (low, high) = (least_near(rho), greatest_near(rho));
+    let one_label = one_label_near(labels);
     let sums = sums_of_five(&noisy);
     for y in 0..height {
         for x in 0..width {
             let at = (x, y);
             let here = noisy[at];
-            let alike = first[at] == last[at] && !leap.between(low[at], high[at]);
+            let alike = one_label[at] && !leap.between(low[at], high[at]);
             if alike && x.min(y) >= 2 && x + 2 < width && y + 2 < height {
                 rho[at] = (y - 2..y + 3).map(|y| sums[(x, y)]).sum::<f32>() / 25.0;
                 continue;
