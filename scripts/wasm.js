@@ -31,7 +31,7 @@ const FEATURES = [
 ].map((feature) => `--enable-${feature}`);
 
 // Less is inlined than usual, and no loop is unrolled in part: engines do that themselves. 130 kB less, and no slower.
-const LLVM = ["inline-threshold=60", "unroll-runtime=false", "unroll-allow-partial=false"];
+const LLVM = ["inline-threshold=50", "unroll-runtime=false", "unroll-allow-partial=false"];
 const CODE = LLVM.map((setting) => `-Cllvm-args=-${setting}`);
 
 // Nothing lies in the first kilobyte of memory, where the stack ends: sums of addresses and constants may so become

@@ -98,6 +98,7 @@ pub struct Stage {
     pub haze: (f64, DVec3),
 }
 
+// Stages are built once: what they are put together with is not compiled anew for each part.
 impl Pose {
     /// Upright at `centre`.
     pub fn at(x: f64, y: f64, z: f64) -> Self {
@@ -109,6 +110,7 @@ impl Pose {
 
     /// The ground as a camera sees it that looks down on it by `pitch` radians, its axis meeting the
     /// ground at `distance`. Ground coordinates: x right, y into the ground, z away.
+    #[inline(never)]
     pub fn ground(pitch: f64, distance: f64) -> Self {
         Self {
             rotation: DMat3::from_rotation_x(pitch),
@@ -118,6 +120,7 @@ impl Pose {
 
     /// A wall that faces the camera at depth `distance`, turned by `yaw` about the vertical: the
     /// ground stood upright.
+    #[inline(never)]
     pub fn wall(distance: f64, yaw: f64) -> Self {
         Self {
             rotation: DMat3::from_rotation_y(yaw)
@@ -127,6 +130,7 @@ impl Pose {
     }
 
     /// Turned about its own origin by `rotation`.
+    #[inline(never)]
     pub fn turned(self, rotation: DMat3) -> Self {
         Self {
             rotation: self.rotation * rotation,
@@ -135,6 +139,7 @@ impl Pose {
     }
 
     /// This pose, given in the frame of `outer`, seen from where `outer` is given.
+    #[inline(never)]
     pub fn within(self, outer: Pose) -> Self {
         Self {
             rotation: outer.rotation * self.rotation,
@@ -175,6 +180,7 @@ impl Material {
 
 impl Light {
     /// Warm lamp at `lamp`, cool sky from `up` and a weak lamp from the other side.
+    #[inline(never)]
     pub fn daylight(lamp: DVec3, up: DVec3, softness: f64) -> Self {
         let lamp = lamp.normalize();
         let side = (lamp - 2.0 * lamp.dot(DVec3::X) * DVec3::X).normalize();
@@ -192,6 +198,7 @@ impl Light {
 
 /// The motion of a body that turns by `rotation` about its point `centre` and moves by `shift`:
 /// T = c − R c + shift.
+#[inline(never)]
 pub fn turn(centre: DVec3, rotation: DVec3, shift: DVec3) -> RigidMotion {
     let about_camera = RigidMotion {
         translation: DVec3::ZERO,

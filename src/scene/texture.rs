@@ -90,6 +90,7 @@ pub fn srgb(hex: u32) -> DVec3 {
 }
 
 /// Three colours by [`srgb`].
+#[inline(never)]
 pub fn palette(dark: u32, middle: u32, light: u32) -> [DVec3; 3] {
     [srgb(dark), srgb(middle), srgb(light)]
 }
