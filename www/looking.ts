@@ -11,7 +11,7 @@ import { Viewer } from "./viewer";
 import { wantedBy } from "./views";
 import { sentence } from "./wording";
 import type { Remote } from "./worker/client";
-import type { MeshData, Progress, Standing, Wanted } from "./worker/protocol";
+import type { MeshData, Progress, Setup, Standing, Wanted } from "./worker/protocol";
 
 let meshListener: (mesh: MeshData) => void = () => {};
 
@@ -50,6 +50,16 @@ export const viewer = new Viewer(
 
 /** The last pass of a solver whose passes take long, for the viewer to draw meanwhile. */
 let slow: Standing | null = null;
+
+/** In frames of more pixels any pass may be a long one. */
+const SMALL = 200_000;
+const large = () => store.state.width * store.state.height > SMALL;
+
+/** The viewer opens the frames, to be there once a run has begun. */
+export function prepare(setup: Setup): void {
+  const { source } = store.state;
+  if (source && large()) void viewer.warm(source, setup);
+}
 
 /** Counts what was asked for, so that answers to earlier questions can be told. */
 let asked = 0;
@@ -187,10 +197,7 @@ export async function show(progress: Progress): Promise<void> {
     store.update({ running, started, revision, ...shown });
     if (progress.mesh) meshListener(progress.mesh);
   }
-  if (!running && slow) {
-    slow = null;
-    if (!state.visit) viewer.end();
-  }
+  if (!running) slow = null;
   if (finished) announce(text.ending[report.status](report.iterations));
   if (lookAgain) {
     lookAgain = false;
@@ -203,5 +210,5 @@ function takePasses({ passes, running, slow: long }: Progress): void {
   if (passes.length > 0) {
     store.update({ timeline: passes.reduce(entered, store.state.timeline) });
   }
-  if (running && long) slow = passes.at(-1) ?? slow;
+  if (running && (long || large())) slow = passes.at(-1) ?? slow;
 }

@@ -7,7 +7,17 @@
 
 import { during } from "./busy";
 import { announce } from "./dom";
-import { answer, forgetAsked, hold, look, lookThrough, show, viewer, want } from "./looking";
+import {
+  answer,
+  forgetAsked,
+  hold,
+  look,
+  lookThrough,
+  prepare,
+  show,
+  viewer,
+  want,
+} from "./looking";
 import { presentFound } from "./memory/held";
 import type { Setting } from "./memory/setting";
 import { adopt, follows, knows, sameFrames } from "./opened";
@@ -67,6 +77,7 @@ export function open(
         adopt(source, opened, { keep, setting: refused ? {} : setting, found: shown });
         if (refused) store.update({ message: sentence(refused) });
         await look();
+        prepare(setupOf(store.state));
         announce(text.page.isOpen(opened.title, opened.width, opened.height));
       });
     } finally {
@@ -164,9 +175,10 @@ export async function command(
 export async function run(): Promise<void> {
   if (store.state.running) return;
   const patch = { running: true, started: true, selected: null };
-  const done = await command(patch, (service, setup, wanted) =>
-    service.run(setup, wanted, paceOf(store.state)),
-  );
+  const done = await command(patch, (service, setup, wanted) => {
+    prepare(setup);
+    return service.run(setup, wanted, paceOf(store.state));
+  });
   if (done) announce(text.run.running);
 }
 

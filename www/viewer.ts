@@ -7,10 +7,10 @@
  */
 
 import { Client } from "./worker/client";
-import type { Progress, Source, Standing, Wanted } from "./worker/protocol";
+import type { Progress, Setup, Source, Standing, Wanted } from "./worker/protocol";
 
 /** After so long without work it is ended: frames take memory. */
-const IDLE_MS = 30_000;
+const IDLE_MS = 120_000;
 
 const NOTHING: Wanted = { id: -1, view: "", pictures: [], longest: 1, mesh: null };
 
@@ -59,6 +59,13 @@ export class Viewer {
     });
   }
 
+  /** Opens frames of which a pass will be asked for. */
+  async warm(source: Source, setup: Setup): Promise<void> {
+    // Whoever asks for a pass is told what is wrong.
+    await this.alone(() => this.open(source, setup)).catch(() => {});
+    if (!this.working) this.rest();
+  }
+
   /** Any other question about a pass; one that `moves` leaves it standing elsewhere. */
   async ask<T>(
     source: Source,
@@ -67,7 +74,7 @@ export class Viewer {
     moves = false,
   ): Promise<T> {
     return this.alone(async () => {
-      await this.open(source, standing);
+      await this.open(source, standing.setup);
       if (!moves && standing !== this.standing) {
         await this.client.call((service) => service.visit(standing, NOTHING));
       }
@@ -93,6 +100,11 @@ export class Viewer {
       sight.done(await this.draw(sight).catch((error: Error) => this.refused(error)));
     }
     this.working = false;
+    this.rest();
+  }
+
+  private rest(): void {
+    clearTimeout(this.idle);
     this.idle = setTimeout(() => this.end(), IDLE_MS);
   }
 
@@ -100,7 +112,7 @@ export class Viewer {
     this.asked += 1;
     const id = this.asked;
     return this.alone(async () => {
-      await this.open(source, standing);
+      await this.open(source, standing.setup);
       const drawn = new Promise<Progress | null>((answer) => (this.answer = answer));
       await this.client.call((service) =>
         standing === this.standing
@@ -121,7 +133,7 @@ export class Viewer {
     return mine;
   }
 
-  private async open(source: Source, { setup }: Standing): Promise<void> {
+  private async open(source: Source, setup: Setup): Promise<void> {
     if (this.source === source) return;
     await this.client.call((service) => service.open(source, setup, null));
     this.source = source;

@@ -157,6 +157,7 @@ async function told(): Promise<void> {
 }
 
 function publish(): void {
+  clearTimeout(sharpening);
   if (inFlight) {
     stale = true;
     return;
@@ -174,9 +175,11 @@ function publish(): void {
     .finally(() => {
       inFlight = false;
       if (stale) publish();
-      else if (look.quick.blunt) setTimeout(sharpen, SHARPEN_MS);
+      else if (look.quick.blunt) sharpening = setTimeout(sharpen, SHARPEN_MS);
     });
 }
+
+let sharpening: ReturnType<typeof setTimeout> | undefined;
 
 /** Quick pictures are followed by sharp ones once there is nothing else to do. */
 function sharpen(): void {
