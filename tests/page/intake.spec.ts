@@ -300,7 +300,8 @@ test("photos bring the focal length that they were taken with", async ({ opened:
   // 35 mm film is 36 mm wide, the frame 160 pixels.
   expect(await read(page, (state) => state.camera.focal)).toBe(320);
   const settings = await inSettings(page);
-  await expect(settings.getByText("f is from EXIF: 72 mm on 35 mm film.")).toBeVisible();
+  await expect(settings.locator("#camera")).toContainText("f is from EXIF: 72 mm on 35 mm film.");
+  await expect(page.locator("#lesson")).toContainText("f is from EXIF: 72 mm on 35 mm film.");
 });
 
 test("faint frames are shown with their levels stretched", async ({ opened: page }) => {

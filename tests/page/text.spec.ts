@@ -27,7 +27,7 @@ const NONE = [
   // Names of formats; a quantity by the core's name; what a drag carries.
   /^(WebM|WebP|Depth|Files)$/,
   // Sides of a divider, parts of a chart, messages to a worker.
-  /^(frame|found|horn-schunck) |^(area|curve|dots|fork) |^ current$|^take over$|^recorded $/,
+  /^(frame|found|horn-schunck) |^(area|curve|dots|fork|join) |^ current$|^take over$|^recorded $/,
 ];
 /** Files of names that are the same in every language: formats and codecs, BibTeX. */
 const NAMES = ["intake/formats.ts", "intake/codecs.ts", "export/cite.ts"];
