@@ -1,7 +1,6 @@
 /** Two frames of the core, where they come from, and the solver that is built on them. */
 
 import {
-  decode,
   hornSchunck,
   Scene,
   Solver,
@@ -10,6 +9,7 @@ import {
   type Frame,
   type LensEntry,
 } from "./core";
+import * as lately from "./lately";
 import { bitmap } from "./pictures";
 import { text } from "../text/worker";
 import type { FrameFile, KnownParts, ScoreTable, Setup, Source } from "./protocol";
@@ -30,9 +30,9 @@ export async function take(source: Source): Promise<Owned> {
     const truth = Truth.ofScene(scene);
     return { first: scene.first(), second: scene.second(), scene, truth, baseline: null };
   }
-  const first = await decode(source.first);
+  const first = await lately.take(source.first);
   try {
-    const second = await decode(source.second);
+    const second = await lately.take(source.second);
     const owned = { first, second, scene: null, truth: null, baseline: null };
     if (source.truth) setTruth(owned, source.truth);
     return owned;

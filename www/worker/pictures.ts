@@ -1,6 +1,7 @@
 /** Frames and pictures of the core as the page shows them, and frames that are only looked at. */
 
 import { decode, displacement, Frame, type Picture } from "./core";
+import { put, take } from "./lately";
 import type { Displacement, FrameFile, Preview } from "./protocol";
 
 /** Longest side of a frame sent to the page; more than a screen shows only costs memory. */
@@ -32,14 +33,14 @@ async function stretched(frame: Frame, longest: number): Promise<ImageBitmap> {
   }
 }
 
-/** Decodes a file only to look at it. */
+/** A file to be looked at. */
 export async function preview(file: FrameFile, longest: number): Promise<Preview> {
-  const frame = await decode(file);
+  const frame = await take(file);
   try {
     const { width, height, interlaced } = frame;
     return { width, height, interlaced, picture: await stretched(frame, longest) };
   } finally {
-    frame.free();
+    put(file, frame);
   }
 }
 
