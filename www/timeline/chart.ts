@@ -5,7 +5,6 @@
 
 import { heightsOf, within, type Point } from "./heights";
 import { lengthOf, type Timeline } from "./line";
-import { text } from "../text";
 import { scaleName } from "./sentences";
 
 const SPACE = "http://www.w3.org/2000/svg";
@@ -85,10 +84,7 @@ export function scalesOf(timeline: Timeline, current: number): { share: number; 
     const name = scaleName(pass);
     if (name === last || name === "") continue;
     last = name;
-    begins.push({
-      share: Math.max(0, at - 0.5 - timeline.first) / length,
-      name: text.timeline.scale(name),
-    });
+    begins.push({ share: Math.max(0, at - 0.5 - timeline.first) / length, name });
   }
   return begins;
 }

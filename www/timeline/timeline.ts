@@ -236,7 +236,7 @@ function show(state: Readonly<State>): void {
   const line = timeline.lines[place.line]!;
   if (drawn?.[0] !== timeline || drawn[1] !== place.line) {
     drawChart(chart, timeline, place.line);
-    scales.replaceChildren(...scalesOf(timeline, place.line).map(tag));
+    scales.replaceChildren(...tags(scalesOf(timeline, place.line)));
     drawn = [timeline, place.line];
   }
   const end = endOf(timeline, line);
@@ -265,10 +265,15 @@ function show(state: Readonly<State>): void {
 }
 
 /** The name of a scale, where it begins. */
-function tag({ share, name }: { share: number; name: string }): HTMLElement {
-  const element = make("span", {}, name);
-  element.style.left = `${100 * share}%`;
-  return element;
+/** The name of a scale where it begins, the number alone where the next begins soon. */
+function tags(begins: { share: number; name: string }[]): HTMLElement[] {
+  return begins.map(({ share, name }, i) => {
+    const word = make("span", { class: "word" }, `${words.scale} `);
+    const element = make("div", {}, make("span", {}, word, name));
+    element.style.left = `${100 * share}%`;
+    element.style.width = `${100 * ((begins[i + 1]?.share ?? 1) - share)}%`;
+    return element;
+  });
 }
 
 /** What there is little room for comes with a press. */

@@ -110,7 +110,7 @@ export const timeline = {
   beside: "Side by side",
   besideTitle: "Show the reliefs of both lines side by side, under the same light",
   lineShown: "Line shown",
-  scale: (name: string) => `scale ${name}`,
+  scale: "scale",
   /** Lines by their names. */
   first: "First",
   second: "Second",
