@@ -243,7 +243,8 @@ test("all passes are there after a reload, and can be gone on from", async ({ op
   await page.getByRole("button", { name: "Go on from here" }).click();
   await until(
     page,
-    ({ running, timeline }) => !running && (timeline?.lines[1]?.energies.length ?? 0) > 4,
+    ({ running, report, timeline }) =>
+      !running && report?.status !== "running" && (timeline?.lines[1]?.energies.length ?? 0) > 4,
   );
   // With the same settings it is the same way.
   const [one, other] = await energies(page);
