@@ -36,7 +36,7 @@ export default defineConfig({
     bypassCSP: true,
     // Requests that a service worker makes cannot be watched; offline.spec.ts lets it in.
     serviceWorkers: "block",
-    // Of each test it would make them slower by a third.
+    // To trace every test takes a third of the time of all.
     trace: "on-first-retry",
   },
   webServer: {

@@ -51,6 +51,8 @@ export function adopt(
     showing: "first",
     tool: "select",
     playing: false,
+    // Without a result there is nothing to see but the frames.
+    ...(keep || found ? {} : { view: "curves" }),
     ...seen(setting),
   });
   fit();

@@ -18,6 +18,7 @@ import {
   webp,
 } from "./films";
 import {
+  chooseView,
   expect,
   inOpen,
   inResult,
@@ -291,6 +292,20 @@ test("an interlaced frame is said to be one, and its two fields open as a pair",
   await (await inResult(page)).getByRole("button", { name: "Open its two fields" }).click();
   await until(page, (state) => state.width === 80 && state.busy === null);
   expect(await openNumbers(page)).toEqual([0, 1]);
+});
+
+test("a new pair opens on its frames, whatever was looked at before", async ({ opened: page }) => {
+  await solve(page);
+  await chooseView(page, "Anaglyph");
+  const files = await Promise.all(moments(2).map((view) => still(page, view)));
+  await any(page).setInputFiles(files.map((data, i) => png(`n${i}.png`, data)));
+  await until(page, (state) => state.source?.kind === "files" && state.busy === null);
+  await expect(page.getByRole("radio", { name: "Outlines", exact: true })).toBeChecked();
+  // Swapped it is the same pair, looked at in the same way.
+  await chooseView(page, "Depth");
+  await (await inOpen(page)).getByRole("button", { name: "Swap the two frames" }).click();
+  await until(page, ({ names, busy }) => names[0] === "n1.png" && busy === null);
+  await expect(page.getByRole("radio", { name: "Depth", exact: true })).toBeChecked();
 });
 
 test("photos bring the focal length that they were taken with", async ({ opened: page }) => {

@@ -5,12 +5,14 @@ import AxeBuilder from "@axe-core/playwright";
 import { estimate } from "../../www/progress";
 import type { Report } from "../../www/worker/protocol";
 import type { State } from "../../www/store";
+import { moments, still } from "./films";
 import {
   expect,
   look,
   open,
   passes,
   PATIENCE,
+  png,
   read,
   runLong,
   test,
@@ -104,6 +106,16 @@ test("a view chosen in the middle of a long pass shows what the last one came to
     expect((await look(page)).colours).toBeGreaterThan(1);
   }
   expect(await read(page, ({ running, message }) => [running, message])).toEqual([true, null]);
+});
+
+test("of large frames a second worker is ready to draw before a run begins", async ({
+  opened: page,
+}) => {
+  expect(page.workers().length).toBe(1);
+  const files = await Promise.all(moments(2, 8, 640, 480).map((view) => still(page, view)));
+  await page.locator("#film-file").setInputFiles(files.map((data, i) => png(`l${i}.png`, data)));
+  await until(page, ({ source, busy }) => source?.kind === "files" && busy === null);
+  await expect.poll(() => page.workers().length).toBe(2);
 });
 
 /** Put before the worker's script: steps are held up at the border to the core. */

@@ -81,6 +81,20 @@ test("both ends of depth are typed, a bad one is said, and the range follows aga
   await shows(page, automatic);
 });
 
+test("what is held after a run that was watched is what is seen at its end", async ({
+  opened: page,
+}) => {
+  await chooseView(page, "Depth");
+  await solve(page);
+  await expect(hold(page)).toBeVisible();
+  const { print: automatic } = await look(page);
+  const marks = await legend(page).locator("li").allTextContents();
+  await hold(page).click();
+  await expect(page.getByLabel("Nearest depth, × mean")).toBeVisible();
+  await shows(page, automatic);
+  expect(await legend(page).locator("li").allTextContents()).toEqual(marks);
+});
+
 test("motion, residual and errors have an end to type", async ({ opened: page }) => {
   await solve(page);
   const ends: [string, RegExp, string][] = [

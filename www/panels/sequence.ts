@@ -19,7 +19,7 @@ export function mountSequence(): void {
     const name = select.value;
     if (memory?.some(({ id }) => id === name)) void resume(name);
     // Where nothing has been found yet, the frame is what there is to see.
-    else if (name !== OWN) void openScene(name, { view: "curves" });
+    else if (name !== OWN) void openScene(name);
   });
   // What was chosen last, though it may still be opening: arrow keys go on from there.
   const choosePresent = () => {

@@ -29,7 +29,7 @@ export function mountLegend(): void {
 interface Shown {
   key: string;
   figure: HTMLElement;
-  tell: (legend: Legend) => void;
+  tell: (legend: Legend, range: Range | null) => void;
 }
 
 let shown: Shown[] = [];
@@ -54,7 +54,7 @@ function show(state: Readonly<State>): void {
     ]);
     // Whoever is typing into one types on.
     const there = shown.find((one) => one.key === key);
-    there?.tell(legend);
+    there?.tell(legend, range);
     return [there ?? { key, ...figureOf(legend, range, `${kind}-${i}`, compared) }];
   });
   const alike = next.length === shown.length && next.every((one, i) => one === shown[i]);
@@ -69,7 +69,7 @@ function show(state: Readonly<State>): void {
 
 function figureOf(
   legend: Legend,
-  range: Range | null,
+  first: Range | null,
   id: string,
   compared: boolean,
 ): Omit<Shown, "key"> {
@@ -86,9 +86,10 @@ function figureOf(
   const name = make("figcaption", {}, quantity);
   const small = depth ? (compared ? words.truthUnit : words.meanUnit) : unit;
   if (small) name.append(make("small", {}, small));
+  let range = first;
   const fields =
     range && range.read(store.state.ranges)
-      ? range.names.map((_, i) => field(range, i, `end-${id}-${i}`))
+      ? range.names.map((_, i) => field(first!, i, `end-${id}-${i}`))
       : [];
   const { body, tell } = BODIES[form](legend, fields);
   const figure = make(
@@ -96,11 +97,12 @@ function figureOf(
     { class: `scale-${form}${fields.length > 0 ? " held" : ""}`, title },
     ...[name, ...body],
   );
-  if (range) figure.append(holder(range, `hold-${id}`));
+  if (range) figure.append(holder(() => range!, `hold-${id}`));
   return {
     figure,
-    tell(legend) {
+    tell(legend, next) {
       tell(legend);
+      range = next ?? range;
       for (const [i, input] of fields.entries()) if (!typedIn(input)) fill(input, range!, i);
     },
   };

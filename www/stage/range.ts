@@ -67,8 +67,9 @@ export function rangeOf(legend: Legend, kind: string, compared: boolean): Range 
 /** Between Z and 1/Z, the lower end first. */
 const inverse = ([one, other]: Ends): [number, number] => [1 / other!, 1 / one!];
 
-/** Holds the range as it is drawn, or lets it follow what is found. */
-export function holder(range: Range, id: string): HTMLButtonElement {
+/** Holds the range as it is drawn by then, or lets it follow what is found. */
+export function holder(now: () => Range, id: string): HTMLButtonElement {
+  const range = now();
   const held = range.read(store.state.ranges) !== null;
   const button = make(
     "button",
@@ -77,7 +78,7 @@ export function holder(range: Range, id: string): HTMLButtonElement {
     make("span", { class: "visually-hidden" }, ` ${words.holdWhat}`),
   );
   button.addEventListener("click", () => {
-    store.update({ ranges: range.write(store.state.ranges, held ? null : range.drawn) });
+    store.update({ ranges: range.write(store.state.ranges, held ? null : now().drawn) });
   });
   return button;
 }

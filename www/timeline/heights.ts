@@ -26,7 +26,7 @@ export function heightsOf(timeline: Timeline, line: Line): Point[] {
     const before = energies[i - 1];
     const compares = before !== undefined && !breaks.includes(at - 1);
     const fall = compares ? Math.log(energy / before) : 0;
-    // No sum that is no number, or is none, has a logarithm.
+    // Zero, and what is not a number, have no logarithm.
     if (Number.isFinite(fall)) height += fall;
     const same = energy === lines[0]?.energies[i] ? parent[i] : undefined;
     height = same?.height ?? height;

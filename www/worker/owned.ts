@@ -9,7 +9,7 @@ import {
   type Frame,
   type LensEntry,
 } from "./core";
-import * as lately from "./lately";
+import { takeDecoded } from "./decoded";
 import { bitmap } from "./pictures";
 import { text } from "../text/worker";
 import type { FrameFile, KnownParts, ScoreTable, Setup, Source } from "./protocol";
@@ -30,9 +30,9 @@ export async function take(source: Source): Promise<Owned> {
     const truth = Truth.ofScene(scene);
     return { first: scene.first(), second: scene.second(), scene, truth, baseline: null };
   }
-  const first = await lately.take(source.first);
+  const first = await takeDecoded(source.first);
   try {
-    const second = await lately.take(source.second);
+    const second = await takeDecoded(source.second);
     const owned = { first, second, scene: null, truth: null, baseline: null };
     if (source.truth) setTruth(owned, source.truth);
     return owned;

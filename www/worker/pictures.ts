@@ -1,7 +1,7 @@
 /** Frames and pictures of the core as the page shows them, and frames that are only looked at. */
 
 import { decode, displacement, Frame, type Picture } from "./core";
-import { put, take } from "./lately";
+import { keepDecoded, takeDecoded } from "./decoded";
 import type { Displacement, FrameFile, Preview } from "./protocol";
 
 /** Longest side of a frame sent to the page; more than a screen shows only costs memory. */
@@ -35,12 +35,12 @@ async function stretched(frame: Frame, longest: number): Promise<ImageBitmap> {
 
 /** A file to be looked at. */
 export async function preview(file: FrameFile, longest: number): Promise<Preview> {
-  const frame = await take(file);
+  const frame = await takeDecoded(file);
   try {
     const { width, height, interlaced } = frame;
     return { width, height, interlaced, picture: await stretched(frame, longest) };
   } finally {
-    put(file, frame);
+    keepDecoded(file, frame);
   }
 }
 

@@ -103,24 +103,18 @@ impl Drawn {
 
     /// A picture; `contours` are those of the frames at their size.
     pub fn picture(&self, kind: &str, contours: &[Contour]) -> Result<Picture, Error> {
-        let Self {
-            pair,
-            found,
-            params,
-            ..
-        } = self;
         if kind == RESIDUAL {
-            return Ok(Picture(view::residuals(pair, found, params)?.0));
+            return Ok(Picture(self.residuals()?.0));
         }
         let frame = if kind == "second" {
-            pair.second()
+            self.pair.second()
         } else {
-            pair.first()
+            self.pair.first()
         };
         let contours: Vec<Contour> = (contours.iter())
             .map(|c| c.clone().shrunk(self.factor))
             .collect();
-        view::draw(kind, frame, found, &contours, params).map(Picture)
+        view::draw(kind, frame, &self.found, &contours, &self.params).map(Picture)
     }
 
     /// The relief, and the frame that lies on it.
@@ -131,17 +125,15 @@ impl Drawn {
 
     /// What the colours of a picture stand for, motion in pixels of the frames at their size: a `Legend` as JSON.
     pub fn legend(&self, kind: &str) -> Result<String, Error> {
-        let Self {
-            pair,
-            found,
-            params,
-            ..
-        } = self;
         if kind == RESIDUAL {
-            return Ok(write(&view::residuals(pair, found, params)?.1));
+            return Ok(write(&self.residuals()?.1));
         }
-        let legend = view::legend(kind, found, params)?;
+        let legend = view::legend(kind, &self.found, &self.params)?;
         Ok(write(&legend.map(|legend| legend.enlarged(self.factor))))
+    }
+
+    fn residuals(&self) -> Result<(view::Picture, Legend), Error> {
+        view::residuals(&self.pair, &self.found, &self.params)
     }
 }
 

@@ -1,19 +1,21 @@
 //! What is known to be true of two frames: a built-in sequence's own, or read from files.
 
 use std::cell::RefCell;
+use std::rc::Rc;
 
 use serde::Serialize;
 use tsify::Tsify;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use super::files::{Files, files_of};
+use super::shown::{Drawn, Shrunk, drawn_of};
 use super::{Baseline, Frame, Json, Kept, Picture, Scene, Solver, Word, write};
 use crate::error::Error;
 use crate::file::kind::kind_of;
 use crate::file::parts::Parts;
+use crate::frames::FramePair;
 use crate::interpretation::Interpretation;
-use crate::view::{self, ViewParams};
-use crate::working::factor_to_draw;
+use crate::view;
 
 /// Which parts of a truth are known.
 #[derive(Serialize, Tsify)]
@@ -27,12 +29,12 @@ struct KnownParts {
 /// The truth of a pair of frames, as far as it is known.
 #[wasm_bindgen]
 pub struct Truth {
-    frames: [crate::Frame; 2],
+    pair: Rc<FramePair>,
     parts: Parts,
     /// The same to be drawn.
-    filled: Interpretation,
-    /// Frames and truth shrunk so many times, as they were drawn last.
-    shrunk: RefCell<Option<(usize, [crate::Frame; 2], Interpretation)>>,
+    filled: Rc<Interpretation>,
+    /// Frames and truth shrunk, as they were drawn last.
+    shrunk: RefCell<Option<Shrunk>>,
 }
 
 /// The name under which `SavedResult` and `Truth` take a file; `undefined` where it is something else, such as a frame.
@@ -84,23 +86,24 @@ impl Truth {
         let parts = Parts::read(&named)?;
         let filled = parts.filled(frames.0, frames.1)?;
         Ok(Self {
-            frames: [first.0.clone(), second.0.clone()],
+            pair: Rc::new(FramePair::new(first.0.clone(), second.0.clone())?),
             parts,
-            filled,
+            filled: Rc::new(filled),
             shrunk: RefCell::default(),
         })
     }
 
     /// The truth of a built-in sequence.
     #[wasm_bindgen(js_name = ofScene)]
-    pub fn of_scene(scene: &Scene) -> Truth {
+    pub fn of_scene(scene: &Scene) -> Result<Truth, Error> {
         let sequence = scene.sequence();
-        Self {
-            frames: sequence.frames.clone(),
+        let [first, second] = sequence.frames.clone();
+        Ok(Self {
+            pair: Rc::new(FramePair::new(first, second)?),
             parts: Parts::from(&sequence.truth),
-            filled: sequence.truth.clone(),
+            filled: Rc::new(sequence.truth.clone()),
             shrunk: RefCell::default(),
-        }
+        })
     }
 
     /// Which parts are known: `KnownParts` as JSON.
@@ -115,35 +118,12 @@ impl Truth {
 
     /// A picture of it: one of `viewCatalogue()`, with parameters of its own as JSON.
     pub fn view(&self, kind: &Word, params: &Json) -> Result<Picture, Error> {
-        let (kind, params) = (kind.view()?, params.view_params()?);
-        let draw = |[first, second]: &[crate::Frame; 2], truth: &Interpretation, n: usize| {
-            let frame = if kind == "second" { second } else { first };
-            let speed = params.speed.map(|speed| speed / n as f64);
-            let params = ViewParams {
-                speed,
-                ..params.clone()
-            };
-            view::draw(&kind, frame, truth, &[], &params).map(Picture)
-        };
-        let n = params
-            .pixels
-            .map_or(1, |most| factor_to_draw(&self.frames[0], 1, most));
-        if n == 1 {
-            return draw(&self.frames, &self.filled, 1);
-        }
-        let mut last = self.shrunk.borrow_mut();
-        if last.as_ref().is_none_or(|(last, ..)| *last != n) {
-            let frames = self.frames.each_ref().map(|frame| frame.shrunk(n));
-            *last = Some((n, frames, self.filled.shrunk(n)));
-        }
-        let (_, frames, truth) = last.as_ref().expect("it has just been made");
-        draw(frames, truth, n)
+        self.drawn(params)?.picture(&kind.view()?, &[])
     }
 
     /// What the colours of such a picture stand for: a `Legend` as JSON, `null` where they are no measure.
     pub fn legend(&self, kind: &Word, params: &Json) -> Result<String, Error> {
-        let params = params.view_params()?;
-        Ok(write(&view::legend(&kind.view()?, &self.filled, &params)?))
+        self.drawn(params)?.legend(&kind.view()?)
     }
 
     /// `params` with the ends of the colours set as the truth would have them, where they are left open: what is drawn
@@ -158,6 +138,11 @@ impl Truth {
 impl Truth {
     pub(super) fn parts(&self) -> &Parts {
         &self.parts
+    }
+
+    fn drawn(&self, params: &Json) -> Result<Drawn, Error> {
+        let params = params.view_params()?;
+        Ok(drawn_of(&self.pair, &self.filled, &params, &self.shrunk))
     }
 }
 

@@ -8,20 +8,20 @@ import type { FrameFile } from "./protocol";
 
 /** Two are opened together. */
 const MOST = 2;
-/** Larger ones take too much memory to lie about, pixels. */
+/** Larger ones take too much memory to be kept, pixels. */
 const LARGEST = 25e6;
 
 let held: { bytes: Uint8Array; frame: Frame }[] = [];
 
 /** Keeps a frame that is not needed now. */
-export function put({ bytes }: FrameFile, frame: Frame): void {
+export function keepDecoded({ bytes }: FrameFile, frame: Frame): void {
   if (frame.width * frame.height > LARGEST) return frame.free();
   held.push({ bytes, frame });
   for (const old of held.splice(0, held.length - MOST)) old.frame.free();
 }
 
 /** The frame in a file, the caller's from now on. */
-export async function take(file: FrameFile): Promise<Frame> {
+export async function takeDecoded(file: FrameFile): Promise<Frame> {
   const found = held.find(({ bytes }) => same(bytes, file.bytes));
   if (!found) return decode(file);
   held = held.filter((one) => one !== found);
