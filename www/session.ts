@@ -18,7 +18,7 @@ import {
   viewer,
   want,
 } from "./looking";
-import { presentFound } from "./memory/held";
+import { presentFound, putAway } from "./memory/held";
 import type { Setting } from "./memory/setting";
 import { adopt, follows, knows, sameFrames } from "./opened";
 import { paceOf } from "./pace";
@@ -201,7 +201,9 @@ export function step(part: Part): Promise<boolean> {
 /** Shows what was put away, with what is set. */
 export function restore(found: Found): Promise<boolean> {
   const { report, contours } = found;
-  const patch = { started: true, selected: null, report, contours };
+  // The worker may be asked for it only once it has it.
+  const held = putAway(found, store.state);
+  const patch = { started: true, selected: null, report, contours, held };
   return command(patch, (service, setup, wanted) => service.restore(setup, found, wanted));
 }
 

@@ -55,6 +55,14 @@ function take(state: Readonly<State>): void {
   store.update({ held });
 }
 
+/** A result that has been put away, as the present one. */
+export const putAway = (found: Found, state: Readonly<State>): Held => ({
+  revision: state.revision,
+  settings: settingsOf(state),
+  ready: Promise.resolve(found),
+  found,
+});
+
 /** The result that belongs to what is set now, if it has been put away. */
 export function presentFound(state: Readonly<State>): Found | null {
   const { held } = state;
